@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <filesystem>
+
+namespace petal {
+
+/// A file that appears whole or not at all. It is written under a temporary name in the same folder
+/// (`.NAME.part` before the extension, so that writers which look at the extension still work); commit()
+/// flushes it to disk and renames it. Without commit() the destructor removes it.
+class PendingFile {
+   public:
+    /// Makes the parent folders. \throws Error, naming the folder, when it cannot be written to.
+    explicit PendingFile(std::filesystem::path final_path);
+    PendingFile(const PendingFile&) = delete;
+    PendingFile& operator=(const PendingFile&) = delete;
+    ~PendingFile();
+
+    const std::filesystem::path& path() const { return temporary_; }
+    const std::filesystem::path& final_path() const { return final_; }
+    /// \throws Error when the file was not written, or the disk is full.
+    void commit();
+
+   private:
+    std::filesystem::path final_;
+    std::filesystem::path temporary_;
+    bool committed_ = false;
+};
+
+}  // namespace petal

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <mrpt/img/TCamera.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "petal/calibration/boards.hpp"
+#include "petal/packet.hpp"
+
+namespace petal {
+
+/// A point of the LiDAR frame and where one camera sees it.
+struct PointPair {
+    Eigen::Vector3d lidar;                                     ///< m
+    Eigen::Vector2d image;                                     ///< raw pixels
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< of `image`, px^2; relative weights
+    int board = -1;   ///< index of the board pair in its scene; -1 for a single point
+    int corner = -1;  ///< index in Target::corners(); -1 for a single point
+};
+
+/// How it was decided which image corner belongs to which LiDAR corner.
+enum class DecidedBy {
+    given,      ///< the input said so (published pairs)
+    data,       ///< the residuals: the refined runner-up is clearly worse
+    prior,      ///< the declared priors, among orders that fit alike
+    undecided,  ///< orders fit alike and no prior is on
+};
+const char* to_string(DecidedBy by);
+
+struct OrderDecision {
+    DecidedBy by = DecidedBy::undecided;
+    double rms_px = 0.0;             ///< of the order taken, refined
+    double runner_up_rms_ratio = 0.0;  ///< RMS of the best other order over that; 0 where there is none
+    double runner_up_chi2 = 0.0;     ///< chi-square of the runner-up less that of the order taken
+    std::string reason;              ///< plain words, for the verdict
+};
+
+/// The pairs of one scene and one camera.
+struct CameraPairs {
+    std::string camera;           ///< label
+    std::string lidar;            ///< label
+    mrpt::img::TCamera model;
+    std::vector<PointPair> pairs;
+    OrderDecision order;
+    /// Poses T_camera_lidar that the matcher found, the best first; a solver may start from them.
+    std::vector<Eigen::Isometry3d> initial;
+    /// For each board pair: index in LidarBoards::boards and ImageBoards::boards of this scene.
+    struct BoardPair {
+        int lidar = -1;
+        int image = -1;
+    };
+    std::vector<BoardPair> boards;
+};
+
+struct Correspondences {
+    std::vector<CameraPairs> cameras;  ///< one for each camera of the scene, also those without a pair
+};
+
+template <>
+struct PacketTraits<Correspondences> {
+    static constexpr const char* name = "Correspondences";
+    static void seal(Correspondences& correspondences);
+    static std::size_t bytes(const Correspondences& correspondences);
+};
+
+}  // namespace petal
