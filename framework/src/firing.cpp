@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "firing.hpp"
+
+#include <random>
+#include <utility>
+
+#include "petal/output.hpp"
+
+namespace petal {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// FNV-1a: std::hash may differ between library versions, and a seed must not.
+std::uint64_t stable_hash(std::string_view text) {
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (const char c : text) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 1099511628211ULL;
+    }
+    return hash;
+}
+
+/// A frame's name as a folder's name: nothing that leads elsewhere.
+std::string as_folder(const FrameInfo& frame) {
+    std::string name = frame.name;
+    for (char& c : name)
+        if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < 32) c = '_';
+    if (name.empty() || name == "." || name == "..") return {};
+    return name;
+}
+
+fs::path inside(const fs::path& folder, const fs::path& name) {
+    const fs::path relative = name.lexically_normal();
+    if (relative.empty() || relative.is_absolute() || *relative.begin() == "..")
+        throw Error("'" + name.string() + "' leads out of the run folder; give a name inside it");
+    return folder / relative;
+}
+
+void write_whole(const fs::path& path, const std::function<void(const fs::path&)>& writer) {
+    PendingFile file(path);
+    writer(file.path());
+    file.commit();
+}
+
+}  // namespace
+
+bool Firing::wired(std::string_view port) const { return inputs_.find(port) != inputs_.end(); }
+
+AnyPacket Firing::input(std::string_view port) const {
+    const auto found = inputs_.find(port);
+    if (found == inputs_.end() || found->second.empty())
+        throw Error("input port '" + std::string(port) + "' is not wired; wire it, or ask wired() first");
+    return found->second.front();
+}
+
+std::vector<AnyPacket> Firing::inputs(std::string_view port) const {
+    const auto found = inputs_.find(port);
+    return found == inputs_.end() ? std::vector<AnyPacket>{} : found->second;
+}
+
+void Firing::publish(std::string_view port, AnyPacket packet) {
+    const std::string name(port);
+    const PortSpec* declared = spec_.find_output(name);
+    if (declared == nullptr)
+        throw Error("the stage wrote on port '" + name + "', which it does not declare as an output");
+    if (!packet.holds(declared->type))
+        throw Error("the stage wrote " + std::string(packet ? packet.type : "no value") +
+                    " on port '" + name + "', which it declares as " + declared->type);
+    packet.frame = frame_;
+    if (!outputs_.emplace(name, std::move(packet)).second)
+        throw Error("the stage wrote port '" + name + "' twice for one frame");
+}
+
+std::map<std::string, AnyPacket> Firing::take_outputs() {
+    if (ended_) {
+        if (!outputs_.empty())
+            throw Error("the stage wrote port '" + outputs_.begin()->first +
+                        "' in the call that ended its data");
+        return {};
+    }
+    for (const PortSpec& port : spec_.outputs)
+        if (outputs_.count(port.name) == 0)
+            throw Error("the stage wrote no packet on port '" + port.name +
+                        "'; a stage that finds nothing writes an empty " + port.type);
+    return std::move(outputs_);
+}
+
+void Firing::set_frame(std::string name, double stamp) {
+    if (!spec_.is_source()) throw Error("set_frame() is for sources: this stage has inputs");
+    frame_.name = std::move(name);
+    frame_.stamp = stamp;
+}
+
+void Firing::end_of_data() {
+    if (!spec_.is_source()) throw Error("end_of_data() is for sources: this stage has inputs");
+    ended_ = true;
+}
+
+Rng& Firing::rng() {
+    if (!rng_) {
+        const std::uint64_t parts[] = {services_.seed(), stable_hash(id_), frame_.number};
+        std::vector<std::uint32_t> words;
+        for (const std::uint64_t part : parts) {
+            words.push_back(static_cast<std::uint32_t>(part));
+            words.push_back(static_cast<std::uint32_t>(part >> 32));
+        }
+        std::seed_seq sequence(words.begin(), words.end());
+        rng_.emplace(sequence);
+    }
+    return *rng_;
+}
+
+void Firing::log(LogLevel level, const std::string& message) { services_.log(id_, level, message); }
+
+void Firing::note(const Note& note) { services_.note(id_, frame_, note); }
+
+void Firing::verdict(Level level, const std::vector<std::string>& reasons) {
+    services_.verdict(id_, level, reasons);
+}
+
+void Firing::save(const std::string& name, const std::function<void(const fs::path&)>& writer) {
+    const fs::path folder = services_.folder() / "stages" / id_ / as_folder(frame_);
+    write_whole(inside(folder, name), writer);
+}
+
+void Firing::output(const std::string& name, const std::function<void(const fs::path&)>& writer) {
+    write_whole(inside(services_.folder(), name), writer);
+}
+
+fs::path Firing::output_path(const fs::path& name) const { return inside(services_.folder(), name); }
+
+const char* to_string(Level level) {
+    switch (level) {
+        case Level::usable: return "usable";
+        case Level::weak: return "weak";
+        case Level::not_usable: return "not_usable";
+    }
+    return "not_usable";
+}
+
+}  // namespace petal

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "petal/run.hpp"
+#include "petal/spec.hpp"
+
+namespace petal {
+
+/// What a firing needs of the run around it. The runner implements it, and the test harness. All of it may
+/// be called from several threads at a time.
+class RunServices {
+   public:
+    virtual ~RunServices() = default;
+    virtual void log(const std::string& stage, LogLevel level, const std::string& message) = 0;
+    virtual void note(const std::string& stage, const FrameInfo& frame, const Note& note) = 0;
+    virtual void verdict(const std::string& stage, Level level,
+                         const std::vector<std::string>& reasons) = 0;
+    virtual void used_file(const std::filesystem::path& path) = 0;
+    virtual bool debug(const std::string& stage) const = 0;
+    virtual bool cancelled() const = 0;
+    virtual int threads() const = 0;
+    virtual std::uint64_t seed() const = 0;
+    virtual const std::filesystem::path& folder() const = 0;
+};
+
+/// The packets that a firing sees: for each wired port the packets of its wires, in order.
+using PortPackets = std::map<std::string, std::vector<AnyPacket>, std::less<>>;
+
+/// One call of a stage's run() or finish(): its packets in, its packets out.
+class Firing final : public Run {
+   public:
+    Firing(const StageSpec& spec, const std::string& id, FrameInfo frame, PortPackets inputs,
+           RunServices& services)
+        : spec_(spec), id_(id), frame_(std::move(frame)), inputs_(std::move(inputs)), services_(services) {}
+
+    bool wired(std::string_view port) const override;
+    const FrameInfo& frame() const override { return frame_; }
+    void set_frame(std::string name, double stamp) override;
+    void end_of_data() override;
+    Rng& rng() override;
+    int threads() const override { return services_.threads(); }
+    bool cancelled() const override { return services_.cancelled(); }
+    void log(LogLevel level, const std::string& message) override;
+    void note(const Note& note) override;
+    void verdict(Level level, const std::vector<std::string>& reasons) override;
+    void used_file(const std::filesystem::path& path) override { services_.used_file(path); }
+    bool debug() const override { return services_.debug(id_); }
+    void save(const std::string& name,
+              const std::function<void(const std::filesystem::path&)>& writer) override;
+    void output(const std::string& name,
+                const std::function<void(const std::filesystem::path&)>& writer) override;
+    std::filesystem::path output_path(const std::filesystem::path& name) const override;
+
+    /// True once a source said that there are no more frames.
+    bool ended() const { return ended_; }
+    /// What was written, by port. \throws Error unless every output port was written (none, where a
+    /// source ended).
+    std::map<std::string, AnyPacket> take_outputs();
+
+   protected:
+    AnyPacket input(std::string_view port) const override;
+    std::vector<AnyPacket> inputs(std::string_view port) const override;
+    void publish(std::string_view port, AnyPacket packet) override;
+
+   private:
+    const StageSpec& spec_;
+    const std::string& id_;
+    FrameInfo frame_;
+    PortPackets inputs_;
+    RunServices& services_;
+    std::map<std::string, AnyPacket> outputs_;
+    std::optional<Rng> rng_;
+    bool ended_ = false;
+};
+
+}  // namespace petal
