@@ -28,6 +28,9 @@ struct Target {
     double height() const;  ///< m
 };
 
+/// The file that load_target would read: for Run::used_file. \throws Error when there is none.
+std::filesystem::path find_target_file(const std::filesystem::path& name_or_path);
+
 /// Reads a target file (JSON; see datasets/targets). `name_or_path` is the path of a file or the name of a
 /// target that petal ships.
 /// \throws Error naming the file and what is wrong: no such file (the shipped names are listed), JSON

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <exception>
+
+#include "petal/calibration/boards.hpp"
+#include "petal/calibration/cloud.hpp"
+#include "petal/calibration/correspondences.hpp"
+#include "petal/calibration/extrinsics.hpp"
+#include "petal/calibration/images.hpp"
+#include "petal/calibration/metrics.hpp"
+#include "petal/calibration/observation.hpp"
+#include "petal/calibration/planes.hpp"
+#include "petal/calibration/truth.hpp"
+#include "petal/error.hpp"
+
+namespace petal {
+namespace {
+
+// MRPT's const methods below fill mutable caches without a lock. Once filled they only read.
+void warm(const mrpt::maps::CPointsMap& points) {
+    points.boundingBox();
+    points.getLargestDistanceFromOrigin();
+}
+
+void warm(const mrpt::poses::CPose3D& pose) {
+    pose.yaw();
+}
+
+void warm(const mrpt::img::CImage& image, const std::string& label) {
+    if (!image.isExternallyStored()) return;
+    try {
+        image.forceLoad();
+    } catch (const std::exception& e) {
+        throw Error("image of camera '" + label + "' cannot be loaded from '" +
+                    image.getExternalStorageFile() + "': " + e.what());
+    }
+}
+
+std::size_t heap(const std::string& text) {
+    return text.capacity();
+}
+
+template <class T>
+std::size_t heap(const std::vector<T>& values) {
+    return values.capacity() * sizeof(T);
+}
+
+std::size_t heap(const std::map<std::string, double>& values) {
+    std::size_t sum = 0;
+    for (const auto& [name, value] : values) sum += sizeof(name) + sizeof(value) + heap(name);
+    return sum;
+}
+
+std::size_t heap(const mrpt::maps::CPointsMap& points) {
+    return sizeof(points) + points.size() * 4 * sizeof(float);  // x y z intensity
+}
+
+std::size_t heap(const mrpt::img::CImage& image) {
+    return image.isEmpty() ? 0 : image.getHeight() * image.getRowStride();
+}
+
+}  // namespace
+
+void PacketTraits<Cloud>::seal(Cloud& cloud) {
+    if (!cloud.points)
+        throw Error("the cloud of '" + cloud.sensor_label +
+                    "' has no points map; an empty cloud has a map without points");
+    warm(*cloud.points);
+    warm(cloud.sensor_pose);
+}
+
+std::size_t PacketTraits<Cloud>::bytes(const Cloud& cloud) {
+    return sizeof(cloud) + heap(*cloud.points) + heap(cloud.sensor_label) + heap(cloud.parts) +
+           heap(cloud.scene_index);
+}
+
+void PacketTraits<Images>::seal(Images& images) {
+    for (const CameraImage& camera : images.cameras) {
+        warm(camera.image, camera.label);
+        warm(camera.sensor_pose);
+    }
+}
+
+std::size_t PacketTraits<Images>::bytes(const Images& images) {
+    std::size_t sum = sizeof(images) + heap(images.cameras);
+    for (const CameraImage& camera : images.cameras) sum += heap(camera.label) + heap(camera.image);
+    return sum;
+}
+
+void PacketTraits<Planes>::seal(Planes& planes) {
+    for (Plane& plane : planes.planes) PacketTraits<Cloud>::seal(plane.inliers);
+}
+
+std::size_t PacketTraits<Planes>::bytes(const Planes& planes) {
+    std::size_t sum = sizeof(planes) + heap(planes.planes);
+    for (const Plane& plane : planes.planes)
+        sum += PacketTraits<Cloud>::bytes(plane.inliers) - sizeof(Cloud);
+    return sum;
+}
+
+// The rest holds no MRPT type that caches: Eigen, strings, numbers, TCamera.
+void PacketTraits<LidarBoards>::seal(LidarBoards&) {}
+
+std::size_t PacketTraits<LidarBoards>::bytes(const LidarBoards& boards) {
+    std::size_t sum = sizeof(boards) + heap(boards.lidar) + heap(boards.boards);
+    for (const LidarBoard& board : boards.boards)
+        sum += heap(board.target) + heap(board.corners) + heap(board.quality);
+    return sum;
+}
+
+void PacketTraits<ImageBoards>::seal(ImageBoards&) {}
+
+std::size_t PacketTraits<ImageBoards>::bytes(const ImageBoards& boards) {
+    std::size_t sum = sizeof(boards) + heap(boards.cameras) + heap(boards.boards);
+    for (const CameraInfo& camera : boards.cameras) sum += heap(camera.label);
+    for (const ImageBoard& board : boards.boards)
+        sum += heap(board.target) + heap(board.camera) + heap(board.corners) +
+               heap(board.covariance) + heap(board.quality);
+    return sum;
+}
+
+void PacketTraits<Correspondences>::seal(Correspondences&) {}
+
+std::size_t PacketTraits<Correspondences>::bytes(const Correspondences& correspondences) {
+    std::size_t sum = sizeof(correspondences) + heap(correspondences.cameras);
+    for (const CameraPairs& camera : correspondences.cameras)
+        sum += heap(camera.camera) + heap(camera.lidar) + heap(camera.pairs) +
+               heap(camera.initial) + heap(camera.boards) + heap(camera.order.reason);
+    return sum;
+}
+
+const char* to_string(DecidedBy by) {
+    switch (by) {
+        case DecidedBy::given:
+            return "given";
+        case DecidedBy::data:
+            return "data";
+        case DecidedBy::prior:
+            return "prior";
+        case DecidedBy::undecided:
+            return "undecided";
+    }
+    return "undecided";
+}
+
+void PacketTraits<Extrinsics>::seal(Extrinsics&) {}
+
+std::size_t PacketTraits<Extrinsics>::bytes(const Extrinsics& extrinsics) {
+    std::size_t sum = sizeof(extrinsics) + heap(extrinsics.cameras) + heap(extrinsics.reasons);
+    for (const CameraExtrinsics& camera : extrinsics.cameras)
+        sum += heap(camera.camera) + heap(camera.lidar) + heap(camera.weakest_direction) +
+               heap(camera.residuals) + heap(camera.order.reason);
+    for (const std::string& reason : extrinsics.reasons) sum += heap(reason);
+    return sum;
+}
+
+void PacketTraits<Metrics>::seal(Metrics&) {}
+
+std::size_t PacketTraits<Metrics>::bytes(const Metrics& metrics) {
+    std::size_t sum = sizeof(metrics) + heap(metrics.values);
+    for (const Metric& metric : metrics.values)
+        sum += heap(metric.name) + heap(metric.unit) + heap(metric.scene);
+    return sum;
+}
+
+void PacketTraits<Truth>::seal(Truth&) {}
+
+std::size_t PacketTraits<Truth>::bytes(const Truth& truth) {
+    std::size_t sum = sizeof(truth) + heap(truth.boards) + heap(truth.labels);
+    for (const Truth::Board& board : truth.boards)
+        sum += heap(board.target) + heap(board.corners_lidar) + heap(board.corners_image);
+    return sum;
+}
+
+void PacketTraits<Observation>::seal(Observation& observation) {
+    if (!observation.observation) throw Error("an Observation packet without an observation");
+    mrpt::obs::CObservation& it = *observation.observation;
+    try {
+        it.load();
+    } catch (const std::exception& e) {
+        throw Error("observation '" + it.sensorLabel + "' (" + it.GetRuntimeClass()->className +
+                    ") has data in another file that cannot be loaded: " + e.what());
+    }
+    // The pose lies in the derived classes, each under its own name: a warm copy in its place does.
+    mrpt::poses::CPose3D pose;
+    it.getSensorPose(pose);
+    warm(pose);
+    it.setSensorPose(pose);
+    if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&it);
+        cloud && cloud->pointcloud)
+        warm(*cloud->pointcloud);
+    if (const auto* image = dynamic_cast<const mrpt::obs::CObservationImage*>(&it))
+        warm(image->image, it.sensorLabel);
+}
+
+std::size_t PacketTraits<Observation>::bytes(const Observation& observation) {
+    const mrpt::obs::CObservation& it = *observation.observation;
+    std::size_t sum = sizeof(observation) + sizeof(it) + heap(it.sensorLabel);
+    if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&it);
+        cloud && cloud->pointcloud)
+        sum += heap(*cloud->pointcloud);
+    if (const auto* image = dynamic_cast<const mrpt::obs::CObservationImage*>(&it))
+        sum += heap(image->image);
+    return sum;
+}
+
+}  // namespace petal
