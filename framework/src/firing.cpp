@@ -70,7 +70,6 @@ void Firing::publish(std::string_view port, AnyPacket packet) {
     if (!packet.holds(declared->type))
         throw Error("the stage wrote " + std::string(packet ? packet.type : "no value") +
                     " on port '" + name + "', which it declares as " + declared->type);
-    packet.frame = frame_;
     if (!outputs_.emplace(name, std::move(packet)).second)
         throw Error("the stage wrote port '" + name + "' twice for one frame");
 }
@@ -86,6 +85,8 @@ std::map<std::string, AnyPacket> Firing::take_outputs() {
         if (outputs_.count(port.name) == 0)
             throw Error("the stage wrote no packet on port '" + port.name +
                         "'; a stage that finds nothing writes an empty " + port.type);
+    // Last: a source may name its frame before or after it writes.
+    for (auto& [port, packet] : outputs_) packet.frame = frame_;
     return std::move(outputs_);
 }
 

@@ -80,7 +80,7 @@ class Run {
         publish(port, AnyPacket{std::move(value), PacketTraits<T>::name, bytes, frame()});
     }
 
-    /// The frame in work. In finish(): a frame without a name, its number that of the last one.
+    /// The frame in work. In finish() it has no name.
     virtual const FrameInfo& frame() const = 0;
     /// A source names the frame that it is about to write; the number is the framework's.
     virtual void set_frame(std::string name, double stamp) = 0;

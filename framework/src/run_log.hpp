@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "petal/run.hpp"
+
+namespace petal {
+
+/// How much reaches the terminal. log.txt always gets everything but debug lines (with `verbose` those too).
+enum class Verbosity { quiet, normal, verbose };
+
+/// The log of one run: log.txt in the run folder, and the terminal's standard error. Thread-safe. log.txt
+/// gets its name when close() is called, or when the log is destroyed.
+class RunLog {
+   public:
+    RunLog(const std::filesystem::path& folder, Verbosity verbosity);
+    RunLog(const RunLog&) = delete;
+    RunLog& operator=(const RunLog&) = delete;
+    ~RunLog();
+
+    void write(LogLevel level, const std::string& message);
+    void close();
+
+   private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace petal

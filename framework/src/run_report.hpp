@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "petal/run.hpp"
+#include "pipeline.hpp"
+
+namespace petal {
+
+/// What one stage did in a run.
+struct StageStatistics {
+    std::uint64_t firings = 0;
+    std::uint64_t packets = 0;  ///< written
+    std::uint64_t bytes = 0;    ///< of them
+    double wall_s = 0.0;
+    double cpu_s = 0.0;  ///< of the stage's own thread
+};
+
+struct ToldNote {
+    std::string stage;
+    FrameInfo frame;
+    Note note;
+};
+
+struct ToldVerdict {
+    std::string stage;
+    Level level = Level::usable;
+    std::vector<std::string> reasons;
+};
+
+/// How a run ended.
+enum class RunStatus { done, failed, cancelled };
+
+/// All that a run tells: the content of run.json.
+struct RunReport {
+    RunStatus status = RunStatus::done;
+    std::vector<std::string> errors;  ///< one sentence each: stage, type, frame, what
+    std::vector<ToldNote> notes;      ///< by stage in topological order, then by frame
+    std::vector<ToldVerdict> verdicts;
+    std::map<std::string, StageStatistics> stages;
+    std::vector<std::filesystem::path> used_files;  ///< sorted, unique
+    std::uint64_t frames = 0;
+    int threads = 1;
+    double wall_s = 0.0;
+    double cpu_s = 0.0;
+    std::uint64_t peak_memory_bytes = 0;
+
+    /// The worst level told; usable where no stage judges.
+    Level level() const;
+};
+
+/// One line for a note: what was looked for, the nearest miss, the threshold, the hint.
+std::string to_string(const Note& note);
+
+/// run.json. Checksums (SHA-256) of the used files are computed here.
+std::string to_json(const RunReport& report, const Pipeline& pipeline);
+
+/// SHA-256 of a file in hexadecimal. \throws Error naming the file.
+std::string sha256_of(const std::filesystem::path& file);
+
+/// The version of petal, e.g. "0.1.0".
+const char* version();
+
+}  // namespace petal

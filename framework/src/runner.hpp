@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "pipeline.hpp"
+#include "run_log.hpp"
+#include "run_report.hpp"
+
+namespace petal {
+
+struct RunSettings {
+    int threads = 1;                  ///< at least 1
+    std::set<std::string> debug;      ///< stage ids; "all" means every one
+    std::filesystem::path folder;     ///< prepared with prepare_run_folder()
+    const std::atomic<bool>* cancel = nullptr;  ///< set from a signal handler; may be null
+};
+
+/// Runs a checked pipeline: stages as tasks over the graph, each instance in frame order on one thread at a
+/// time, branches and frames in parallel, a bounded number of frames in flight.
+/// Exceptions of stages end the run and stand in the report's errors; this throws only for its own faults.
+RunReport run_pipeline(const Pipeline& pipeline, const RunSettings& settings, RunLog& log);
+
+}  // namespace petal
