@@ -10,7 +10,8 @@
 
 namespace petal::testing {
 
-/// The folder of real data: PETAL_REAL_DATA, else ../shared/data beside the project. Empty where absent.
+/// The folder of real data: PETAL_REAL_DATA, else ../shared/data beside the project. Empty where
+/// absent.
 inline std::filesystem::path real_data() {
     namespace fs = std::filesystem;
     if (const char* set = std::getenv("PETAL_REAL_DATA")) return set;
@@ -21,6 +22,6 @@ inline std::filesystem::path real_data() {
 }  // namespace petal::testing
 
 /// Skips the test, visibly, where the real data are not there.
-#define PETAL_NEEDS_REAL_DATA()                                                                  \
-    if (::petal::testing::real_data().empty())                                                   \
+#define PETAL_NEEDS_REAL_DATA()                \
+    if (::petal::testing::real_data().empty()) \
     GTEST_SKIP() << "no real data: set PETAL_REAL_DATA, or put them in ../shared/data"

@@ -48,12 +48,15 @@ void write_whole(const fs::path& path, const std::function<void(const fs::path&)
 
 }  // namespace
 
-bool Firing::wired(std::string_view port) const { return inputs_.find(port) != inputs_.end(); }
+bool Firing::wired(std::string_view port) const {
+    return inputs_.find(port) != inputs_.end();
+}
 
 AnyPacket Firing::input(std::string_view port) const {
     const auto found = inputs_.find(port);
     if (found == inputs_.end() || found->second.empty())
-        throw Error("input port '" + std::string(port) + "' is not wired; wire it, or ask wired() first");
+        throw Error("input port '" + std::string(port) +
+                    "' is not wired; wire it, or ask wired() first");
     return found->second.front();
 }
 
@@ -66,7 +69,8 @@ void Firing::publish(std::string_view port, AnyPacket packet) {
     const std::string name(port);
     const PortSpec* declared = spec_.find_output(name);
     if (declared == nullptr)
-        throw Error("the stage wrote on port '" + name + "', which it does not declare as an output");
+        throw Error("the stage wrote on port '" + name +
+                    "', which it does not declare as an output");
     if (!packet.holds(declared->type))
         throw Error("the stage wrote " + std::string(packet ? packet.type : "no value") +
                     " on port '" + name + "', which it declares as " + declared->type);
@@ -115,9 +119,13 @@ Rng& Firing::rng() {
     return *rng_;
 }
 
-void Firing::log(LogLevel level, const std::string& message) { services_.log(id_, level, message); }
+void Firing::log(LogLevel level, const std::string& message) {
+    services_.log(id_, level, message);
+}
 
-void Firing::note(const Note& note) { services_.note(id_, frame_, note); }
+void Firing::note(const Note& note) {
+    services_.note(id_, frame_, note);
+}
 
 void Firing::verdict(Level level, const std::vector<std::string>& reasons) {
     services_.verdict(id_, level, reasons);
@@ -132,13 +140,18 @@ void Firing::output(const std::string& name, const std::function<void(const fs::
     write_whole(inside(services_.folder(), name), writer);
 }
 
-fs::path Firing::output_path(const fs::path& name) const { return inside(services_.folder(), name); }
+fs::path Firing::output_path(const fs::path& name) const {
+    return inside(services_.folder(), name);
+}
 
 const char* to_string(Level level) {
     switch (level) {
-        case Level::usable: return "usable";
-        case Level::weak: return "weak";
-        case Level::not_usable: return "not_usable";
+        case Level::usable:
+            return "usable";
+        case Level::weak:
+            return "weak";
+        case Level::not_usable:
+            return "not_usable";
     }
     return "not_usable";
 }

@@ -17,8 +17,8 @@
 
 namespace petal {
 
-/// What a firing needs of the run around it. The runner implements it, and the test harness. All of it may
-/// be called from several threads at a time.
+/// What a firing needs of the run around it. The runner implements it, and the test harness. All of
+/// it may be called from several threads at a time.
 class RunServices {
    public:
     virtual ~RunServices() = default;
@@ -42,7 +42,11 @@ class Firing final : public Run {
    public:
     Firing(const StageSpec& spec, const std::string& id, FrameInfo frame, PortPackets inputs,
            RunServices& services)
-        : spec_(spec), id_(id), frame_(std::move(frame)), inputs_(std::move(inputs)), services_(services) {}
+        : spec_(spec),
+          id_(id),
+          frame_(std::move(frame)),
+          inputs_(std::move(inputs)),
+          services_(services) {}
 
     bool wired(std::string_view port) const override;
     const FrameInfo& frame() const override { return frame_; }

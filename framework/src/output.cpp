@@ -20,9 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
+std::string reason(int error_number) {
+    return std::generic_category().message(error_number);
+}
 
-/// Forces a file, or a folder's entries, to disk: a rename must not become visible before the content.
+/// Forces a file, or a folder's entries, to disk: a rename must not become visible before the
+/// content.
 void sync(const fs::path& path, int flags) {
     const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
     if (descriptor < 0)
@@ -47,8 +50,7 @@ void write_file(const fs::path& path, std::string_view content) {
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
     if (!file)
-        throw Error("cannot write " + path.string() + ": " + reason(errno) +
-                    "; is the disk full?");
+        throw Error("cannot write " + path.string() + ": " + reason(errno) + "; is the disk full?");
 }
 
 PendingFile::PendingFile(fs::path final_path) : final_(std::move(final_path)) {
@@ -76,8 +78,7 @@ void PendingFile::commit() {
         throw Error("nothing was written for " + final_.string() + "; is the disk full?");
     sync(temporary_, O_RDONLY);
     fs::rename(temporary_, final_, error);
-    if (error)
-        throw Error("cannot put " + final_.string() + " in place: " + error.message());
+    if (error) throw Error("cannot put " + final_.string() + " in place: " + error.message());
     committed_ = true;
     sync(final_.has_parent_path() ? final_.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
 }

@@ -5,76 +5,51 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "nearest.hpp"
+#include "param_check.hpp"
 
 namespace petal {
 
 namespace {
-
-std::string number(double value) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << value;
-    return text.str();
-}
-
-std::string range_problem(const ParamSpec& param, double value) {
-    const bool below = param.min && value < *param.min;
-    const bool above = param.max && value > *param.max;
-    if (std::isfinite(value) && !below && !above) return {};
-    const std::string unit = param.unit.empty() || param.unit == "1" ? "" : " " + param.unit;
-    std::string expected;
-    if (param.min && param.max) {
-        expected = "from " + number(*param.min) + " to " + number(*param.max);
-    } else if (param.min) {
-        expected = "at least " + number(*param.min);
-    } else if (param.max) {
-        expected = "at most " + number(*param.max);
-    } else {
-        expected = "a finite number";
-    }
-    return number(value) + unit + " is out of range; expected " + expected + unit;
-}
-
-std::string element_problem(const ParamSpec& param, double value) { return range_problem(param, value); }
-std::string element_problem(const ParamSpec& param, std::int64_t value) {
-    return range_problem(param, static_cast<double>(value));
-}
-std::string element_problem(const ParamSpec&, bool) { return {}; }
-std::string element_problem(const ParamSpec& param, const std::string& value) {
-    if (param.kind != Kind::choice) return {};
-    if (std::find(param.choices.begin(), param.choices.end(), value) != param.choices.end()) return {};
-    return "'" + value + "' is no choice; expected one of " + join(param.choices) +
-           did_you_mean(value, param.choices);
-}
 
 template <class T>
 struct IsVector : std::false_type {};
 template <class E>
 struct IsVector<std::vector<E>> : std::true_type {};
 
+template <class T>
+bool fits(const ParamSpec& param, const T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return true;
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        return param.kind != Kind::choice ||
+               std::find(param.choices.begin(), param.choices.end(), value) != param.choices.end();
+    } else {
+        const auto number = static_cast<double>(value);
+        return std::isfinite(number) && (!param.min || number >= *param.min) &&
+               (!param.max || number <= *param.max);
+    }
+}
+
 }  // namespace
 
 std::string value_problem(const ParamSpec& param, const Value& value) {
-    if (value.index() != param.default_value.index())
-        return std::string("wrong kind; expected ") + (param.list ? "a list of " : "") +
-               to_string(param.kind);
-    return std::visit(
-        [&param](const auto& held) -> std::string {
-            if constexpr (IsVector<std::decay_t<decltype(held)>>::value) {
-                for (const auto& element : held) {
-                    const std::string problem = element_problem(param, element);
-                    if (!problem.empty()) return problem;
-                }
-                return {};
-            } else {
-                return element_problem(param, held);
-            }
-        },
-        value);
+    const auto fits_held = [&param](const auto& held) {
+        if constexpr (IsVector<std::decay_t<decltype(held)>>::value) {
+            return std::all_of(held.begin(), held.end(),
+                               [&](auto element) { return fits(param, element); });
+        } else {
+            return fits(param, held);
+        }
+    };
+    if (value.index() == param.default_value.index() && std::visit(fits_held, value)) return {};
+    return value_text(value) + " does not fit; expected " + expected_value(param);
+}
+
+std::string value_text(const Value& value) {
+    return std::visit([](const auto& held) { return nlohmann::json(held).dump(); }, value);
 }
 
 }  // namespace petal

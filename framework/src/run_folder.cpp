@@ -43,8 +43,9 @@ fs::path prepare_run_folder(const fs::path& out, bool force, const fs::path& dat
                     " is the data folder; a run never writes into its data: give another one");
     if (fs::exists(folder / "run.json", error)) {
         if (!force)
-            throw Error("--out " + out.string() +
-                        " holds a run already; give another folder, or --force to replace that run");
+            throw Error(
+                "--out " + out.string() +
+                " holds a run already; give another folder, or --force to replace that run");
         for (const char* name : kRunFiles) fs::remove_all(folder / name, error);
     }
     fs::create_directories(folder, error);

@@ -18,18 +18,24 @@ namespace {
 
 spdlog::level::level_enum to_spdlog(LogLevel level) {
     switch (level) {
-        case LogLevel::debug: return spdlog::level::debug;
-        case LogLevel::info: return spdlog::level::info;
-        case LogLevel::warning: return spdlog::level::warn;
+        case LogLevel::debug:
+            return spdlog::level::debug;
+        case LogLevel::info:
+            return spdlog::level::info;
+        case LogLevel::warning:
+            return spdlog::level::warn;
     }
     return spdlog::level::info;
 }
 
 spdlog::level::level_enum terminal_level(Verbosity verbosity) {
     switch (verbosity) {
-        case Verbosity::quiet: return spdlog::level::off;
-        case Verbosity::normal: return spdlog::level::info;
-        case Verbosity::verbose: return spdlog::level::debug;
+        case Verbosity::quiet:
+            return spdlog::level::off;
+        case Verbosity::normal:
+            return spdlog::level::info;
+        case Verbosity::verbose:
+            return spdlog::level::debug;
     }
     return spdlog::level::info;
 }
@@ -45,8 +51,8 @@ struct RunLog::State {
 RunLog::RunLog(const std::filesystem::path& folder, Verbosity verbosity)
     : state_(std::make_unique<State>(folder)) {
     try {
-        auto to_file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(
-            state_->file.path().string(), true);
+        auto to_file =
+            std::make_shared<spdlog::sinks::basic_file_sink_mt>(state_->file.path().string(), true);
         to_file->set_formatter(std::make_unique<spdlog::pattern_formatter>(
             "%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc));
         to_file->set_level(verbosity == Verbosity::verbose ? spdlog::level::debug

@@ -11,11 +11,12 @@
 
 namespace petal {
 
-/// How much reaches the terminal. log.txt always gets everything but debug lines (with `verbose` those too).
+/// How much reaches the terminal. log.txt always gets everything but debug lines (with `verbose`
+/// those too).
 enum class Verbosity { quiet, normal, verbose };
 
-/// The log of one run: log.txt in the run folder, and the terminal's standard error. Thread-safe. log.txt
-/// gets its name when close() is called, or when the log is destroyed.
+/// The log of one run: log.txt in the run folder, and the terminal's standard error. Thread-safe.
+/// log.txt gets its name when close() is called, or when the log is destroyed.
 class RunLog {
    public:
     RunLog(const std::filesystem::path& folder, Verbosity verbosity);

@@ -18,8 +18,9 @@
 
 namespace petal {
 
-/// One stage of a run: its instance, the packets that wait for it, and when it may fire. Not thread-safe:
-/// the scheduler guards it; only the stage instance itself is used outside the scheduler's lock.
+/// One stage of a run: its instance, the packets that wait for it, and when it may fire. Not
+/// thread-safe: the scheduler guards it; only the stage instance itself is used outside the
+/// scheduler's lock.
 class RunNode {
    public:
     /// Where an output's packets go.

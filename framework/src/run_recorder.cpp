@@ -34,7 +34,9 @@ bool RunRecorder::debug(const std::string& stage) const {
     return settings_.debug.count("all") > 0 || settings_.debug.count(stage) > 0;
 }
 
-bool RunRecorder::cancelled() const { return settings_.cancel != nullptr && settings_.cancel->load(); }
+bool RunRecorder::cancelled() const {
+    return settings_.cancel != nullptr && settings_.cancel->load();
+}
 
 void RunRecorder::fill(RunReport& report, const Pipeline& pipeline) {
     std::map<std::string, std::size_t> rank;
@@ -43,10 +45,9 @@ void RunRecorder::fill(RunReport& report, const Pipeline& pipeline) {
         return std::make_pair(rank[a.stage], a.frame.number) <
                std::make_pair(rank[b.stage], b.frame.number);
     });
-    std::stable_sort(verdicts_.begin(), verdicts_.end(),
-                     [&](const ToldVerdict& a, const ToldVerdict& b) {
-                         return rank[a.stage] < rank[b.stage];
-                     });
+    std::stable_sort(
+        verdicts_.begin(), verdicts_.end(),
+        [&](const ToldVerdict& a, const ToldVerdict& b) { return rank[a.stage] < rank[b.stage]; });
     report.notes = std::move(notes_);
     report.verdicts = std::move(verdicts_);
     report.used_files.assign(used_files_.begin(), used_files_.end());

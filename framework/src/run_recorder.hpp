@@ -16,8 +16,8 @@
 
 namespace petal {
 
-/// Takes down what the stages of a run tell, from any thread, and sorts it so that the order does not
-/// depend on the threads.
+/// Takes down what the stages of a run tell, from any thread, and sorts it so that the order does
+/// not depend on the threads.
 class RunRecorder final : public RunServices {
    public:
     RunRecorder(const RunSettings& settings, std::uint64_t seed, RunLog& log)

@@ -20,9 +20,12 @@ namespace {
 
 const char* to_string(RunStatus status) {
     switch (status) {
-        case RunStatus::done: return "done";
-        case RunStatus::failed: return "failed";
-        case RunStatus::cancelled: return "cancelled";
+        case RunStatus::done:
+            return "done";
+        case RunStatus::failed:
+            return "failed";
+        case RunStatus::cancelled:
+            return "cancelled";
     }
     return "failed";
 }
@@ -47,15 +50,19 @@ Json notes_json(const std::vector<ToldNote>& notes) {
 /// The plugins whose stages the pipeline uses.
 Json plugins_json(const Pipeline& pipeline) {
     std::set<std::pair<std::string, std::string>> used;
-    for (const StageNode& node : pipeline.stages) used.insert({node.spec->plugin, node.spec->plugin_version});
+    for (const StageNode& node : pipeline.stages)
+        used.insert({node.spec->plugin, node.spec->plugin_version});
     Json list = Json::array();
-    for (const auto& [name, its_version] : used) list.push_back({{"name", name}, {"version", its_version}});
+    for (const auto& [name, its_version] : used)
+        list.push_back({{"name", name}, {"version", its_version}});
     return list;
 }
 
 }  // namespace
 
-const char* version() { return PETAL_VERSION; }
+const char* version() {
+    return PETAL_VERSION;
+}
 
 Level RunReport::level() const {
     Level worst = Level::usable;
@@ -103,8 +110,9 @@ std::string sha256_of(const std::filesystem::path& file) {
 std::string to_json(const RunReport& report, const Pipeline& pipeline) {
     Json verdicts = Json::array();
     for (const ToldVerdict& told : report.verdicts)
-        verdicts.push_back(
-            {{"stage", told.stage}, {"level", petal::to_string(told.level)}, {"reasons", told.reasons}});
+        verdicts.push_back({{"stage", told.stage},
+                            {"level", petal::to_string(told.level)},
+                            {"reasons", told.reasons}});
     Json data = Json::array();
     for (const auto& file : report.used_files)
         data.push_back({{"file", file.string()}, {"sha256", sha256_of(file)}});
@@ -112,8 +120,9 @@ std::string to_json(const RunReport& report, const Pipeline& pipeline) {
     for (const StageNode& node : pipeline.stages) {
         const auto found = report.stages.find(node.id);
         const StageStatistics s = found == report.stages.end() ? StageStatistics{} : found->second;
-        stages[node.id] = {{"type", node.spec->type}, {"firings", s.firings}, {"packets", s.packets},
-                           {"bytes", s.bytes},        {"wall_s", s.wall_s},   {"cpu_s", s.cpu_s}};
+        stages[node.id] = {{"type", node.spec->type}, {"firings", s.firings},
+                           {"packets", s.packets},    {"bytes", s.bytes},
+                           {"wall_s", s.wall_s},      {"cpu_s", s.cpu_s}};
     }
     Json root{{"petal_run", 1},
               {"status", to_string(report.status)},

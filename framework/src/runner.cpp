@@ -56,7 +56,9 @@ class Scheduler {
         for (RunNode& node : nodes_)
             for (const auto& [port, wires] : node.definition().inputs)
                 for (std::size_t i = 0; i < wires.size(); ++i)
-                    by_id.at(wires[i].stage)->consumers()[wires[i].port].push_back({&node, port, i});
+                    by_id.at(wires[i].stage)
+                        ->consumers()[wires[i].port]
+                        .push_back({&node, port, i});
     }
 
     void run(int threads) {

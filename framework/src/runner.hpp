@@ -16,15 +16,16 @@
 namespace petal {
 
 struct RunSettings {
-    int threads = 1;                  ///< at least 1
-    std::set<std::string> debug;      ///< stage ids; "all" means every one
-    std::filesystem::path folder;     ///< prepared with prepare_run_folder()
+    int threads = 1;                            ///< at least 1
+    std::set<std::string> debug;                ///< stage ids; "all" means every one
+    std::filesystem::path folder;               ///< prepared with prepare_run_folder()
     const std::atomic<bool>* cancel = nullptr;  ///< set from a signal handler; may be null
 };
 
-/// Runs a checked pipeline: stages as tasks over the graph, each instance in frame order on one thread at a
-/// time, branches and frames in parallel, a bounded number of frames in flight.
-/// Exceptions of stages end the run and stand in the report's errors; this throws only for its own faults.
+/// Runs a checked pipeline: stages as tasks over the graph, each instance in frame order on one
+/// thread at a time, branches and frames in parallel, a bounded number of frames in flight.
+/// Exceptions of stages end the run and stand in the report's errors; this throws only for its own
+/// faults.
 RunReport run_pipeline(const Pipeline& pipeline, const RunSettings& settings, RunLog& log);
 
 }  // namespace petal

@@ -12,8 +12,8 @@
 
 namespace petal {
 
-/// What host and plugin must share so that C++ objects can cross between them. Compared field by field
-/// before a library is opened; plain numbers, so that it can be read from the file.
+/// What host and plugin must share so that C++ objects can cross between them. Compared field by
+/// field before a library is opened; plain numbers, so that it can be read from the file.
 struct BuildKey {
     std::uint32_t cxx_abi;          ///< __GXX_ABI_VERSION
     std::uint32_t cxx11_strings;    ///< _GLIBCXX_USE_CXX11_ABI

@@ -8,8 +8,8 @@
 
 namespace petal {
 
-/// What petal and its stages throw. One sentence that names the culprit, what was expected and what to
-/// do. The runner adds the stage's id, its type and the frame.
+/// What petal and its stages throw. One sentence that names the culprit, what was expected and what
+/// to do. The runner adds the stage's id, its type and the frame.
 class Error : public std::runtime_error {
    public:
     using std::runtime_error::runtime_error;

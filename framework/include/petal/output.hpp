@@ -8,13 +8,13 @@
 
 namespace petal {
 
-/// Writes `content` to `path`, replacing what is there. For the path that Run::save and Run::output hand
-/// out. \throws Error naming the file when it cannot be opened, or the disk is full.
+/// Writes `content` to `path`, replacing what is there. For the path that Run::save and Run::output
+/// hand out. \throws Error naming the file when it cannot be opened, or the disk is full.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// A file that appears whole or not at all. It is written under a temporary name in the same folder
-/// (`scene.rawlog` as `.scene.part.rawlog`, so that writers which look at the extension still work); commit()
-/// flushes it to disk and renames it. Without commit() the destructor removes it.
+/// (`scene.rawlog` as `.scene.part.rawlog`, so that writers which look at the extension still
+/// work); commit() flushes it to disk and renames it. Without commit() the destructor removes it.
 class PendingFile {
    public:
     /// Makes the parent folders. \throws Error, naming the folder, when it cannot be written to.

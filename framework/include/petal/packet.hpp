@@ -27,9 +27,10 @@ struct FrameInfo {
 ///         static std::size_t bytes(const Cloud& value);     // memory held, for run.json
 ///     };
 ///
-/// `seal` runs once, before the value becomes shared: after it, const access from several threads must
-/// be free of writes. (MRPT's const is not: CPose3D caches its angles, CPointsMap its bounding box.)
-/// The name, not the C++ type_info, identifies a type: it survives RTLD_LOCAL and hidden visibility.
+/// `seal` runs once, before the value becomes shared: after it, const access from several threads
+/// must be free of writes. (MRPT's const is not: CPose3D caches its angles, CPointsMap its bounding
+/// box.) The name, not the C++ type_info, identifies a type: it survives RTLD_LOCAL and hidden
+/// visibility.
 template <class T>
 struct PacketTraits;
 

@@ -19,8 +19,8 @@ namespace petal {
 /// Raised whenever a header in petal/ changes what a compiled plugin relies on.
 constexpr std::uint32_t kFrameworkAbi = 1;
 
-/// Lies in the ELF section `.petal.plugin` of every plugin and is read from the file before the library
-/// is opened (opening it would run its static constructors).
+/// Lies in the ELF section `.petal.plugin` of every plugin and is read from the file before the
+/// library is opened (opening it would run its static constructors).
 struct PluginRecord {
     char magic[8];  ///< "PETALPLG"
     std::uint32_t size;
@@ -43,7 +43,8 @@ class Registrar {
     void add(std::string type) {
         add_spec(describe_stage<S>(std::move(type)));
     }
-    /// Called before a run with the number of threads it may use: for libraries with pools of their own.
+    /// Called before a run with the number of threads it may use: for libraries with pools of their
+    /// own.
     virtual void on_thread_limit(std::function<void(int threads)> apply) = 0;
 
    protected:
@@ -83,13 +84,16 @@ constexpr PluginRecord make_record(const char (&name)[N], const char (&version)[
 #endif
 
 /// Once in a library: PETAL_PLUGIN("filters", "0.1.0", [](petal::Registrar& r) { ... });
-#define PETAL_PLUGIN(NAME, VERSION, ...)                                                            \
-    extern "C" {                                                                                    \
-    __attribute__((section(".petal.plugin"), used, visibility("default"))) extern const             \
-        ::petal::PluginRecord petal_plugin_record;                                                  \
-    const ::petal::PluginRecord petal_plugin_record =                                               \
-        ::petal::detail::make_record(NAME, VERSION, PETAL_TYPES_NAME, PETAL_TYPES_ABI);             \
-    __attribute__((visibility("default"))) void petal_plugin_register(::petal::Registrar& registrar);\
-    void petal_plugin_register(::petal::Registrar& registrar) { (__VA_ARGS__)(registrar); }         \
-    }                                                                                               \
+#define PETAL_PLUGIN(NAME, VERSION, ...)                                                           \
+    extern "C" {                                                                                   \
+    __attribute__((section(".petal.plugin"), used,                                                 \
+                   visibility("default"))) extern const ::petal::PluginRecord petal_plugin_record; \
+    const ::petal::PluginRecord petal_plugin_record =                                              \
+        ::petal::detail::make_record(NAME, VERSION, PETAL_TYPES_NAME, PETAL_TYPES_ABI);            \
+    __attribute__((visibility("default"))) void petal_plugin_register(                             \
+        ::petal::Registrar& registrar);                                                            \
+    void petal_plugin_register(::petal::Registrar& registrar) {                                    \
+        (__VA_ARGS__)(registrar);                                                                  \
+    }                                                                                              \
+    }                                                                                              \
     static_assert(true, "a semicolon ends PETAL_PLUGIN")

@@ -43,7 +43,8 @@ class Run {
    public:
     virtual ~Run() = default;
 
-    // --- packets -----------------------------------------------------------------------------------
+    // --- packets
+    // -----------------------------------------------------------------------------------
     /// The packet on a reads() port. \throws Error when an optional port is not wired.
     template <class T>
     const T& in(std::string_view port) const {
@@ -63,7 +64,8 @@ class Run {
     template <class T>
     std::vector<Packet<T>> all(std::string_view port) const {
         std::vector<Packet<T>> packets;
-        for (const AnyPacket& any : inputs(port)) packets.push_back({cast<T>(port, any), any.frame});
+        for (const AnyPacket& any : inputs(port))
+            packets.push_back({cast<T>(port, any), any.frame});
         return packets;
     }
     virtual bool wired(std::string_view port) const = 0;
@@ -87,7 +89,8 @@ class Run {
     /// A source has no more frames. It writes nothing in that call.
     virtual void end_of_data() = 0;
 
-    // --- the run -----------------------------------------------------------------------------------
+    // --- the run
+    // -----------------------------------------------------------------------------------
     virtual Rng& rng() = 0;
     /// Threads this stage may use inside one call (at least 1). Sums must not depend on it.
     virtual int threads() const = 0;
@@ -97,7 +100,8 @@ class Run {
         if (cancelled()) throw Cancelled();
     }
 
-    // --- telling -----------------------------------------------------------------------------------
+    // --- telling
+    // -----------------------------------------------------------------------------------
     virtual void log(LogLevel level, const std::string& message) = 0;
     virtual void note(const Note& note) = 0;
     /// How far the result can be used, and why. One call a run for each stage that judges.
@@ -105,11 +109,12 @@ class Run {
     /// Records a file that the result depends on: run.json tells its checksum.
     virtual void used_file(const std::filesystem::path& path) = 0;
 
-    // --- files -------------------------------------------------------------------------------------
+    // --- files
+    // -------------------------------------------------------------------------------------
     /// True where the user asked for this stage's debug files.
     virtual bool debug() const = 0;
-    /// Writes stages/<id>/[<frame name>/]<name> under the run folder: `writer` fills the path that it is
-    /// given (same extension), which then gets its name. Whole or not at all.
+    /// Writes stages/<id>/[<frame name>/]<name> under the run folder: `writer` fills the path that
+    /// it is given (same extension), which then gets its name. Whole or not at all.
     virtual void save(const std::string& name,
                       const std::function<void(const std::filesystem::path&)>& writer) = 0;
     /// Writes a product, <run folder>/<name>: result.json and the like. Whole or not at all.
@@ -128,9 +133,8 @@ class Run {
     template <class T>
     static std::shared_ptr<const T> cast(std::string_view port, const AnyPacket& any) {
         if (!any.holds(PacketTraits<T>::name))
-            throw Error("port '" + std::string(port) + "' holds " +
-                        (any ? any.type : "no packet") + ", the stage asked for " +
-                        PacketTraits<T>::name);
+            throw Error("port '" + std::string(port) + "' holds " + (any ? any.type : "no packet") +
+                        ", the stage asked for " + PacketTraits<T>::name);
         return std::static_pointer_cast<const T>(any.value);
     }
 };

@@ -25,7 +25,7 @@ struct ParamSpec {
     std::string name;
     Kind kind = Kind::boolean;
     bool list = false;
-    std::string unit;          ///< "m", "deg", "px", "1" (none); every double has one
+    std::string unit;           ///< "m", "deg", "px", "1" (none); every double has one
     std::optional<double> min;  ///< inclusive; of each element of a list
     std::optional<double> max;  ///< inclusive
     std::vector<std::string> choices;
@@ -198,18 +198,21 @@ class Spec {
     /// One packet for each firing.
     template <class T>
     PortBuilder reads(std::string name, std::string doc) {
-        spec_.inputs.push_back({std::move(name), PacketTraits<T>::name, std::move(doc), false, false});
+        spec_.inputs.push_back(
+            {std::move(name), PacketTraits<T>::name, std::move(doc), false, false});
         return PortBuilder(spec_.inputs.back());
     }
     /// Every packet of one or more wires, in finish().
     template <class T>
     PortBuilder gathers(std::string name, std::string doc) {
-        spec_.inputs.push_back({std::move(name), PacketTraits<T>::name, std::move(doc), false, true});
+        spec_.inputs.push_back(
+            {std::move(name), PacketTraits<T>::name, std::move(doc), false, true});
         return PortBuilder(spec_.inputs.back());
     }
     template <class T>
     void writes(std::string name, std::string doc) {
-        spec_.outputs.push_back({std::move(name), PacketTraits<T>::name, std::move(doc), false, false});
+        spec_.outputs.push_back(
+            {std::move(name), PacketTraits<T>::name, std::move(doc), false, false});
     }
 
     /// Declares a parameter; its default is the member's initialiser in Params, and nowhere else.

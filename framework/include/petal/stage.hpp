@@ -17,14 +17,15 @@ class Run;
 ///   output, or calls Run::end_of_data().
 /// - reads() ports only: run() once for each packet of its wires (once, where they are once wires),
 ///   then finish() once, e.g. to close a file; finish() then has no ports.
-/// - any gathers() port: finish() alone, once, after the last frame. Then Run::all() has every packet of
+/// - any gathers() port: finish() alone, once, after the last frame. Then Run::all() has every
+/// packet of
 ///   the gathering ports, and its reads() ports (which must be once wires) are there too.
 ///
-/// Thread contract: one instance is used by one thread at a time, not always the same one; inputs are
-/// const and shared with other stages, outputs are moved away; no globals, no thread-locals.
+/// Thread contract: one instance is used by one thread at a time, not always the same one; inputs
+/// are const and shared with other stages, outputs are moved away; no globals, no thread-locals.
 ///
-/// A stage that finds nothing writes an empty packet and a note. It throws petal::Error when its input
-/// is invalid.
+/// A stage that finds nothing writes an empty packet and a note. It throws petal::Error when its
+/// input is invalid.
 class Stage {
    public:
     Stage() = default;

@@ -17,7 +17,8 @@ enum class Kind { boolean, integer, real, text, choice, path };
 const char* to_string(Kind kind);
 
 /// A parameter's value, free of any JSON library. `choice` and `path` are strings here.
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
-                           std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<bool>,
+                 std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
 
 }  // namespace petal

@@ -197,12 +197,26 @@ const std::vector<AnyPacket>& StageHarness::written(const std::string& port) con
     return found == state_->written.end() ? kNone : found->second;
 }
 
-const StageSpec& StageHarness::spec() const { return state_->spec; }
-const std::vector<Note>& StageHarness::notes() const { return state_->notes; }
-const std::vector<std::string>& StageHarness::logs() const { return state_->logs; }
-std::optional<Level> StageHarness::verdict() const { return state_->told_level; }
-const std::vector<std::string>& StageHarness::reasons() const { return state_->reasons; }
-const std::vector<fs::path>& StageHarness::used_files() const { return state_->used_files; }
-const fs::path& StageHarness::folder() const { return state_->run_folder; }
+const StageSpec& StageHarness::spec() const {
+    return state_->spec;
+}
+const std::vector<Note>& StageHarness::notes() const {
+    return state_->notes;
+}
+const std::vector<std::string>& StageHarness::logs() const {
+    return state_->logs;
+}
+std::optional<Level> StageHarness::verdict() const {
+    return state_->told_level;
+}
+const std::vector<std::string>& StageHarness::reasons() const {
+    return state_->reasons;
+}
+const std::vector<fs::path>& StageHarness::used_files() const {
+    return state_->used_files;
+}
+const fs::path& StageHarness::folder() const {
+    return state_->run_folder;
+}
 
 }  // namespace petal::testing

@@ -45,21 +45,21 @@ class StageHarness {
     StageHarness& set(const std::string& param, int value) {
         return set(param, Value(static_cast<std::int64_t>(value)));
     }
-    /// Adds a packet to an input port. On a reads() port the k-th packet is frame k; a gathers() port
-    /// gets them all.
+    /// Adds a packet to an input port. On a reads() port the k-th packet is frame k; a gathers()
+    /// port gets them all.
     template <class T>
     StageHarness& give(const std::string& port, T value, std::string frame_name = "") {
         const std::uint64_t number = given(port);
-        return give_packet(port, make_packet(std::move(value),
-                                             FrameInfo{number, std::move(frame_name), 0.0}));
+        return give_packet(
+            port, make_packet(std::move(value), FrameInfo{number, std::move(frame_name), 0.0}));
     }
     StageHarness& seed(std::uint64_t seed);
     StageHarness& threads(int count);
     StageHarness& debug(bool on);
     StageHarness& cancel();  ///< fire as if the user had cancelled already
 
-    /// Makes a fresh stage and runs it over what was given. Exceptions pass through. Earlier outputs are
-    /// dropped.
+    /// Makes a fresh stage and runs it over what was given. Exceptions pass through. Earlier
+    /// outputs are dropped.
     void fire();
 
     /// What was written to an output port, frame by frame.
@@ -67,7 +67,8 @@ class StageHarness {
     std::vector<Packet<T>> all(const std::string& port) const {
         std::vector<Packet<T>> packets;
         for (const AnyPacket& any : written(port)) {
-            if (!any.holds(PacketTraits<T>::name)) throw Error("port " + port + " holds " + any.type);
+            if (!any.holds(PacketTraits<T>::name))
+                throw Error("port " + port + " holds " + any.type);
             packets.push_back({std::static_pointer_cast<const T>(any.value), any.frame});
         }
         return packets;

@@ -19,15 +19,15 @@ namespace petal {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// A board as the LiDAR sees it. Which of its sides is the upper one the LiDAR alone cannot tell: the
-/// order here is row by row from the top left for an observer at the sensor whose up is the LiDAR's +z
-/// (its +x where +z is along the normal). The matcher decides the true order.
+/// A board as the LiDAR sees it. Which of its sides is the upper one the LiDAR alone cannot tell:
+/// the order here is row by row from the top left for an observer at the sensor whose up is the
+/// LiDAR's +z (its +x where +z is along the normal). The matcher decides the true order.
 struct LidarBoard {
-    std::string target;                                 ///< Target::name
+    std::string target;  ///< Target::name
     Eigen::Isometry3d T_lidar_board = Eigen::Isometry3d::Identity();
-    std::vector<Eigen::Vector3d> corners;               ///< Target::corners() in the LiDAR frame, m
-    std::optional<Matrix6d> covariance;                 ///< of the pose, left perturbation (rho, phi)
-    std::map<std::string, double> quality;              ///< named figures, unit in the name
+    std::vector<Eigen::Vector3d> corners;   ///< Target::corners() in the LiDAR frame, m
+    std::optional<Matrix6d> covariance;     ///< of the pose, left perturbation (rho, phi)
+    std::map<std::string, double> quality;  ///< named figures, unit in the name
 };
 
 struct LidarBoards {
@@ -38,9 +38,9 @@ struct LidarBoards {
 /// A board as one camera sees it, row by row from the top left in the image.
 struct ImageBoard {
     std::string target;
-    std::string camera;                         ///< label
-    std::vector<Eigen::Vector2d> corners;       ///< raw pixels
-    std::vector<Eigen::Matrix2d> covariance;    ///< of each corner, px^2
+    std::string camera;                       ///< label
+    std::vector<Eigen::Vector2d> corners;     ///< raw pixels
+    std::vector<Eigen::Matrix2d> covariance;  ///< of each corner, px^2
     std::map<std::string, double> quality;
 };
 

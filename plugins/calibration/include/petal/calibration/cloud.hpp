@@ -19,8 +19,9 @@ namespace petal {
 
 /// Points of one LiDAR in its own frame, in metres.
 ///
-/// The points are shared, so a Cloud is cheap to copy; a stage that drops or moves points makes a new
-/// map. Points may be NaN where the input had them: sources keep what they read, detectors skip them.
+/// The points are shared, so a Cloud is cheap to copy; a stage that drops or moves points makes a
+/// new map. Points may be NaN where the input had them: sources keep what they read, detectors skip
+/// them.
 struct Cloud {
     /// One LiDAR message of the scene: where its points begin, and when it was taken.
     struct Part {

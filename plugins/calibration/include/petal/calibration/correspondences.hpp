@@ -18,9 +18,10 @@ namespace petal {
 
 /// A point of the LiDAR frame and where one camera sees it.
 struct PointPair {
-    Eigen::Vector3d lidar;                                     ///< m
-    Eigen::Vector2d image;                                     ///< raw pixels
-    Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< of `image`, px^2; relative weights
+    Eigen::Vector3d lidar;  ///< m
+    Eigen::Vector2d image;  ///< raw pixels
+    Eigen::Matrix2d covariance =
+        Eigen::Matrix2d::Identity();  ///< of `image`, px^2; relative weights
     int board = -1;   ///< index of the board pair in its scene; -1 for a single point
     int corner = -1;  ///< index in Target::corners(); -1 for a single point
 };
@@ -36,16 +37,17 @@ const char* to_string(DecidedBy by);
 
 struct OrderDecision {
     DecidedBy by = DecidedBy::undecided;
-    double rms_px = 0.0;             ///< of the order taken, refined
-    double runner_up_rms_ratio = 0.0;  ///< RMS of the best other order over that; 0 where there is none
-    double runner_up_chi2 = 0.0;     ///< chi-square of the runner-up less that of the order taken
-    std::string reason;              ///< plain words, for the verdict
+    double rms_px = 0.0;  ///< of the order taken, refined
+    double runner_up_rms_ratio =
+        0.0;                      ///< RMS of the best other order over that; 0 where there is none
+    double runner_up_chi2 = 0.0;  ///< chi-square of the runner-up less that of the order taken
+    std::string reason;           ///< plain words, for the verdict
 };
 
 /// The pairs of one scene and one camera.
 struct CameraPairs {
-    std::string camera;           ///< label
-    std::string lidar;            ///< label
+    std::string camera;  ///< label
+    std::string lidar;   ///< label
     mrpt::img::TCamera model;
     std::vector<PointPair> pairs;
     OrderDecision order;
@@ -60,7 +62,8 @@ struct CameraPairs {
 };
 
 struct Correspondences {
-    std::vector<CameraPairs> cameras;  ///< one for each camera of the scene, also those without a pair
+    std::vector<CameraPairs>
+        cameras;  ///< one for each camera of the scene, also those without a pair
 };
 
 template <>

@@ -11,8 +11,8 @@
 
 namespace petal {
 
-/// A figure with its unit. `name` is the key in result.json and ends in the unit where that is not SI:
-/// "reprojection.rms_px".
+/// A figure with its unit. `name` is the key in result.json and ends in the unit where that is not
+/// SI: "reprojection.rms_px".
 struct Metric {
     std::string name;
     double value = 0.0;

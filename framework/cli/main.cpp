@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <exception>
+#include <iostream>
+
+#include "command.hpp"
+#include "run_report.hpp"
+
+/// petal: see the README, or petal --help.
+int main(int argc, char** argv) {
+    using namespace petal::cli;
+    CLI::App app(
+        "petal: camera-LiDAR calibration and other pipelines of exchangeable stages over MRPT "
+        "rawlogs");
+    app.set_version_flag("--version", std::string("petal ") + petal::version());
+    app.require_subcommand(1);
+    app.fallthrough();
+
+    GlobalOptions global;
+    app.add_option("--plugin-path", global.plugin_path,
+                   "folder to search for plugins first; repeatable")
+        ->allow_extra_args(false);
+    auto* quiet = app.add_flag("--quiet", global.quiet, "errors and the result only");
+    app.add_flag("--verbose", global.verbose, "debug messages too")->excludes(quiet);
+
+    Action action;
+    add_run(app, global, action);
+    add_check(app, global, action);
+    add_show(app, global, action);
+    add_stages(app, global, action);
+    add_plugins(app, global, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kDone : kWrongUsage;
+    }
+    try {
+        return action();
+    } catch (const std::exception& failure) {
+        std::cerr << "petal: " << failure.what() << "\n";
+        return kRunFailed;
+    }
+}
