@@ -53,6 +53,7 @@ class StageHarness {
         return give_packet(
             port, make_packet(std::move(value), FrameInfo{number, std::move(frame_name), 0.0}));
     }
+    StageHarness& give_packet(const std::string& port, AnyPacket packet);
     StageHarness& seed(std::uint64_t seed);
     StageHarness& threads(int count);
     StageHarness& debug(bool on);
@@ -94,7 +95,6 @@ class StageHarness {
 
    private:
     std::uint64_t given(const std::string& port) const;
-    StageHarness& give_packet(const std::string& port, AnyPacket packet);
 
     struct State;
     std::unique_ptr<State> state_;

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "overlay.hpp"
+
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "overlay_canvas.hpp"
+#include "petal/calibration/boards.hpp"
+#include "petal/calibration/camera_model.hpp"
+#include "petal/calibration/cloud.hpp"
+#include "petal/calibration/correspondences.hpp"
+#include "petal/calibration/extrinsics.hpp"
+#include "petal/calibration/images.hpp"
+
+namespace petal {
+
+namespace {
+
+/// Everything known of one scene; null where the pipeline does not wire it.
+struct SceneView {
+    std::string name;
+    std::shared_ptr<const Images> images;
+    std::shared_ptr<const Cloud> cloud;
+    std::shared_ptr<const ImageBoards> image_boards;
+    std::shared_ptr<const LidarBoards> lidar_boards;
+    std::shared_ptr<const Correspondences> correspondences;
+};
+
+std::map<std::uint64_t, SceneView> scenes_of(const Run& run) {
+    std::map<std::uint64_t, SceneView> scenes;
+    for (const auto& packet : run.all<Images>("images")) {
+        SceneView& scene = scenes[packet.frame.number];
+        scene.images = packet.value;
+        scene.name = packet.frame.name.empty() ? "scene_" + std::to_string(packet.frame.number)
+                                               : packet.frame.name;
+    }
+    for (const auto& packet : run.all<Cloud>("cloud"))
+        scenes[packet.frame.number].cloud = packet.value;
+    for (const auto& packet : run.all<ImageBoards>("image_boards"))
+        scenes[packet.frame.number].image_boards = packet.value;
+    for (const auto& packet : run.all<LidarBoards>("lidar_boards"))
+        scenes[packet.frame.number].lidar_boards = packet.value;
+    for (const auto& packet : run.all<Correspondences>("correspondences"))
+        scenes[packet.frame.number].correspondences = packet.value;
+    return scenes;
+}
+
+const CameraExtrinsics* extrinsics_of(const Extrinsics& extrinsics, const std::string& camera) {
+    for (const CameraExtrinsics& solved : extrinsics.cameras)
+        if (solved.camera == camera) return &solved;
+    return nullptr;
+}
+
+void draw_camera(OverlayCanvas& canvas, const SceneView& scene, const CameraImage& image,
+                 const CameraExtrinsics* solved, const OverlayParams& params) {
+    if (solved != nullptr && scene.cloud)
+        canvas.draw_cloud(*scene.cloud, solved->T_camera_lidar,
+                          static_cast<std::size_t>(params.max_points));
+    if (scene.image_boards)
+        for (const ImageBoard& board : scene.image_boards->boards)
+            if (board.camera == image.label) canvas.draw_detected(board.corners);
+    if (solved != nullptr && scene.lidar_boards)
+        for (const LidarBoard& board : scene.lidar_boards->boards)
+            canvas.draw_projected(board.corners, solved->T_camera_lidar);
+    if (solved != nullptr && scene.correspondences)
+        for (const CameraPairs& pairs : scene.correspondences->cameras)
+            if (pairs.camera == image.label)
+                canvas.draw_residuals(pairs.pairs, solved->T_camera_lidar, params.residual_scale);
+}
+
+}  // namespace
+
+void Overlay::describe(Spec<Params>& s) {
+    s.summary(
+        "Draws detected corners, projected LiDAR points and corners, and enlarged residuals on the "
+        "photo.");
+    s.doc(
+        "One picture a scene and camera, `stages/<id>/<scene>_<camera>.png`: detected corners as "
+        "green crosses, "
+        "LiDAR points coloured by their distance (near red, far blue), projected LiDAR corners as "
+        "red "
+        "circles, and from each detected corner a yellow line along its residual (measured less "
+        "projected), "
+        "`residual_scale` times its length. Projection uses the camera's distortion, so all of it "
+        "lies on "
+        "the raw photo. Without extrinsics only what was detected is drawn, and the picture says "
+        "so.");
+    s.gathers<Images>("images", "the photos");
+    s.reads<Extrinsics>("extrinsics", "what a solver found");
+    s.gathers<Cloud>("cloud", "points to project").optional();
+    s.gathers<ImageBoards>("image_boards", "corners found in the photos").optional();
+    s.gathers<LidarBoards>("lidar_boards", "corners found by the LiDAR").optional();
+    s.gathers<Correspondences>("correspondences", "pairs, for the residuals").optional();
+    s.param("magnification", &Params::magnification)
+        .within(1, 8)
+        .doc("the picture is that many times as large as the photo");
+    s.param("residual_scale", &Params::residual_scale)
+        .unit("1")
+        .within(0.0, 1000.0)
+        .doc("residuals are drawn that many times as long as they are");
+    s.param("max_points", &Params::max_points)
+        .within(0, 100000000)
+        .doc("of a larger cloud, evenly spaced points are drawn");
+}
+
+void Overlay::finish(Run& run) {
+    const Extrinsics& extrinsics = run.in<Extrinsics>("extrinsics");
+    for (const auto& [number, scene] : scenes_of(run)) {
+        run.check_cancelled();
+        if (!scene.images) continue;
+        for (const CameraImage& image : scene.images->cameras) {
+            const CameraExtrinsics* solved = extrinsics_of(extrinsics, image.label);
+            OverlayCanvas canvas(image, params_.magnification);
+            draw_camera(canvas, scene, image, solved, params_);
+            if (solved == nullptr) {
+                canvas.draw_caption("no extrinsics for this camera: detected corners only");
+            } else {
+                canvas.draw_caption(std::string(to_string(extrinsics.level)) + "; residuals x" +
+                                    std::to_string(static_cast<int>(params_.residual_scale)));
+            }
+            run.save(scene.name + "_" + image.label + ".png",
+                     [&](const std::filesystem::path& path) {
+                         if (!cv::imwrite(path.string(), canvas.picture()))
+                             throw Error("cannot write the overlay " + path.string() +
+                                         "; is the disk full?");
+                     });
+        }
+    }
+}
+
+}  // namespace petal
