@@ -86,9 +86,9 @@ constexpr PluginRecord make_record(const char (&name)[N], const char (&version)[
 /// Once in a library: PETAL_PLUGIN("filters", "0.1.0", [](petal::Registrar& r) { ... });
 #define PETAL_PLUGIN(NAME, VERSION, ...)                                                           \
     extern "C" {                                                                                   \
-    __attribute__((section(".petal.plugin"), used,                                                 \
+    __attribute__((section(".petal.plugin"),                                                       \
                    visibility("default"))) extern const ::petal::PluginRecord petal_plugin_record; \
-    const ::petal::PluginRecord petal_plugin_record =                                              \
+    __attribute__((used)) const ::petal::PluginRecord petal_plugin_record =                        \
         ::petal::detail::make_record(NAME, VERSION, PETAL_TYPES_NAME, PETAL_TYPES_ABI);            \
     __attribute__((visibility("default"))) void petal_plugin_register(                             \
         ::petal::Registrar& registrar);                                                            \
