@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "petal/plugin.hpp"
+
+#include "sources/files.hpp"
+#include "sources/pairs.hpp"
+
+PETAL_PLUGIN("sources", "0.1.0", [](petal::Registrar& r) {
+    r.add<petal::FilesSource>("source.files");
+    r.add<petal::PairsSource>("source.pairs");
+});

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "sources/text_numbers.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "petal/error.hpp"
+#include "sources/input_file.hpp"
+
+namespace petal {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\v\f";
+
+std::string_view trim(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::vector<std::string_view> split_at(std::string_view line, char separator) {
+    std::vector<std::string_view> words;
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = line.find(separator, begin);
+        words.push_back(trim(line.substr(begin, end - begin)));
+        if (end == std::string_view::npos) break;
+        begin = end + 1;
+    }
+    if (words.size() > 1 && words.back().empty()) words.pop_back();
+    return words;
+}
+
+}  // namespace
+
+std::optional<double> parse_number(std::string_view text) {
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (text.empty() || error != std::errc() || stop != end) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> split_words(std::string_view line) {
+    line = trim(line);
+    for (const char separator : {';', ','})
+        if (line.find(separator) != std::string_view::npos) return split_at(line, separator);
+    std::vector<std::string_view> words;
+    while (!line.empty()) {
+        const std::size_t end = std::min(line.find_first_of(kBlanks), line.size());
+        words.push_back(line.substr(0, end));
+        line = trim(line.substr(end));
+    }
+    return words;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string shown;
+    for (const char c : text.substr(0, longest))
+        shown += (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) ? '?' : c;
+    return "'" + shown + (text.size() > longest ? "...'" : "'");
+}
+
+TextTable read_text_table(const std::filesystem::path& file, const std::string& what,
+                          std::size_t min_columns) {
+    const std::string bytes = read_whole_file(file, what);
+    std::string_view rest = bytes;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (rest.substr(0, byte_order_mark.size()) == byte_order_mark)
+        rest.remove_prefix(byte_order_mark.size());
+
+    TextTable table;
+    bool first = true;
+    std::size_t number = 0;
+    const auto fail = [&](const std::string& text) {
+        throw Error(file.string() + ":" + std::to_string(number) + ": " + text);
+    };
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        ++number;
+        line = trim(line.substr(0, line.find('#')));
+        if (line.empty()) continue;
+        const std::vector<std::string_view> words = split_words(line);
+        const bool header = std::none_of(words.begin(), words.end(), [](std::string_view word) {
+            return parse_number(word).has_value();
+        });
+        if (first && header) {
+            table.header.assign(words.begin(), words.end());
+            first = false;
+            continue;
+        }
+        first = false;
+        if (table.columns == 0) {
+            if (words.size() < min_columns)
+                fail(std::to_string(words.size()) + " columns; " + what + " needs at least " +
+                     std::to_string(min_columns));
+            table.columns = words.size();
+        }
+        if (words.size() != table.columns)
+            fail(std::to_string(words.size()) + " columns, but the rows before have " +
+                 std::to_string(table.columns));
+        for (const std::string_view word : words) {
+            const std::optional<double> value = parse_number(word);
+            if (!value && word.find(',') != std::string_view::npos)
+                fail(in_quotes(word) + " is no number; write decimals with a point, not a comma");
+            if (!value) fail(in_quotes(word) + " is no number");
+            table.values.push_back(*value);
+        }
+    }
+    return table;
+}
+
+}  // namespace petal
