@@ -45,6 +45,9 @@ class StageHarness {
     StageHarness& set(const std::string& param, int value) {
         return set(param, Value(static_cast<std::int64_t>(value)));
     }
+    // Exact matches, or 0.2 and false would be taken for an int.
+    StageHarness& set(const std::string& param, double value) { return set(param, Value(value)); }
+    StageHarness& set(const std::string& param, bool value) { return set(param, Value(value)); }
     /// Adds a packet to an input port. On a reads() port the k-th packet is frame k; a gathers()
     /// port gets them all.
     template <class T>
