@@ -113,7 +113,7 @@ std::string stage_text(const StageSpec& stage) {
     if (!stage.params.empty()) text += "\nparameters:\n";
     for (const ParamSpec& param : stage.params) {
         text += "  " + param.name + " = " + value_text(param.default_value) + "  (" +
-                expected_value(param) + ")\n      " + param.doc + "\n";
+                expected_value(param, param.list) + ")\n      " + param.doc + "\n";
     }
     if (!stage.doc.empty()) text += "\n" + stage.doc + "\n";
     return text;
@@ -138,7 +138,7 @@ std::string stage_markdown(const StageSpec& stage) {
         text += "## Parameters\n\n| name | default | takes | what |\n|---|---|---|---|\n";
     for (const ParamSpec& param : stage.params)
         text += "| `" + param.name + "` | `" + cell(value_text(param.default_value)) + "` | " +
-                cell(expected_value(param)) + " | " + cell(param.doc) + " |\n";
+                cell(expected_value(param, param.list)) + " | " + cell(param.doc) + " |\n";
     if (!stage.params.empty()) text += "\n";
     if (!stage.doc.empty()) text += "## How it works\n\n" + stage.doc + "\n";
     return text;

@@ -45,7 +45,7 @@ std::string value_problem(const ParamSpec& param, const Value& value) {
         }
     };
     if (value.index() == param.default_value.index() && std::visit(fits_held, value)) return {};
-    return value_text(value) + " does not fit; expected " + expected_value(param);
+    return value_text(value) + " does not fit; expected " + expected_value(param, param.list);
 }
 
 std::string value_text(const Value& value) {

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "petal/output.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "petal/error.hpp"
+#include "run_folder.hpp"
+
+namespace petal {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::string content(const fs::path& file) {
+    std::ifstream in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+template <class Work>
+std::string error_of(Work work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+class OutputTest : public ::testing::Test {
+   protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "petal-output-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override {
+        fs::permissions(folder_, fs::perms::owner_all);
+        fs::remove_all(folder_);
+    }
+    std::size_t files() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+    fs::path folder_;
+};
+
+TEST_F(OutputTest, AFileAppearsOnlyWhenCommitted) {
+    {
+        PendingFile file(folder_ / "a.png");
+        write_file(file.path(), "half");
+        EXPECT_FALSE(fs::exists(folder_ / "a.png"));
+        EXPECT_EQ(file.path().extension(), ".png");
+    }
+    EXPECT_EQ(files(), 0U) << "what was not committed leaves nothing behind";
+    PendingFile file(folder_ / "a.png");
+    write_file(file.path(), "whole");
+    file.commit();
+    EXPECT_EQ(content(folder_ / "a.png"), "whole");
+    EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(OutputTest, CommitReplacesAndNeedsContent) {
+    write_file(folder_ / "a", "old");
+    PendingFile file(folder_ / "a");
+    EXPECT_THAT(error_of([&] { file.commit(); }), HasSubstr("nothing was written"));
+    EXPECT_EQ(content(folder_ / "a"), "old");
+    write_file(file.path(), "new");
+    file.commit();
+    EXPECT_EQ(content(folder_ / "a"), "new");
+}
+
+TEST_F(OutputTest, AFullDiskIsAnError) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    EXPECT_THAT(error_of([] { write_file("/dev/full", std::string(1 << 20, 'x')); }),
+                HasSubstr("is the disk full?"));
+}
+
+TEST_F(OutputTest, AnUnwritableFolderIsNamed) {
+    write_file(folder_ / "file", "x");
+    EXPECT_THAT(error_of([&] { PendingFile file(folder_ / "file" / "a.txt"); }),
+                HasSubstr((folder_ / "file").string()));
+    if (geteuid() == 0) return;  // root may write anywhere
+    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_THAT(error_of([&] { PendingFile file(folder_ / "a.txt"); }), HasSubstr("cannot write"));
+}
+
+TEST_F(OutputTest, ARunFolderThatHoldsARunIsRefusedUnlessForced) {
+    const fs::path out = folder_ / "out";
+    const fs::path made = prepare_run_folder(out, false, {});
+    EXPECT_EQ(made, fs::canonical(out));
+    write_file(out / "run.json", "{}");
+    write_file(out / "result.json", "{}");
+    write_file(out / "mine.txt", "kept");
+    EXPECT_THAT(error_of([&] { prepare_run_folder(out, false, {}); }), HasSubstr("--force"));
+    prepare_run_folder(out, true, {});
+    EXPECT_FALSE(fs::exists(out / "run.json"));
+    EXPECT_FALSE(fs::exists(out / "result.json"));
+    EXPECT_TRUE(fs::exists(out / "mine.txt")) << "only the run's own files go";
+}
+
+TEST_F(OutputTest, ARunFolderIsNeitherAFileNorTheData) {
+    write_file(folder_ / "file", "x");
+    EXPECT_THAT(error_of([&] { prepare_run_folder(folder_ / "file", false, {}); }),
+                HasSubstr("is a file"));
+    EXPECT_THAT(error_of([&] { prepare_run_folder(folder_, false, folder_); }),
+                HasSubstr("is the data folder"));
+}
+
+}  // namespace
+}  // namespace petal
