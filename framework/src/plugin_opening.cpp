@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "petal/error.hpp"
+#include "plugin_record.hpp"
 #include "registry.hpp"
 
 namespace petal {
@@ -38,18 +39,22 @@ class Collector final : public Registrar {
     Registry registry_;
 };
 
-std::string last_dl_error() {
+/// What dlerror() says, without the library's name in front: a refusal has it already.
+std::string last_dl_error(const std::filesystem::path& library) {
     const char* const text = dlerror();
-    return text != nullptr ? text : "unknown reason";
+    std::string message = text != nullptr ? text : "unknown reason";
+    const std::string name = library.string() + ": ";
+    if (message.compare(0, name.size(), name) == 0) message.erase(0, name.size());
+    return message;
 }
 
 }  // namespace
 
 PluginRecord fitting_record(const std::filesystem::path& library) {
-    const PluginRecord record = read_plugin_record(library);
+    const PluginRecord record = read_record(library);
     if (const std::string differing = mismatch(record, build_key()); !differing.empty())
         throw Error("was built differently from this petal: " + differing +
-                    "; build it again with petal's own compiler flags and libraries");
+                    "; build it again against this petal, with its compiler flags and libraries");
     return record;
 }
 
@@ -61,12 +66,12 @@ OpenedPlugin open_plugin(const std::filesystem::path& library, const PluginRecor
     // NODELETE and no dlclose: MRPT's class registry keeps raw pointers into every library it met.
     void* const handle =
         dlopen(opened.plugin.library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (handle == nullptr) throw Error("cannot be opened: " + last_dl_error());
+    if (handle == nullptr) throw Error("cannot be opened: " + last_dl_error(opened.plugin.library));
     using Register = void (*)(Registrar&);
     const auto register_stages = reinterpret_cast<Register>(dlsym(handle, "petal_plugin_register"));
     if (register_stages == nullptr)
         throw Error("has a plugin record but no function petal_plugin_register: " +
-                    last_dl_error());
+                    last_dl_error(opened.plugin.library));
     Collector collector(opened);
     try {
         register_stages(collector);

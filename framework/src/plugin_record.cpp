@@ -15,6 +15,7 @@
 
 #include "loader.hpp"
 #include "petal/error.hpp"
+#include "plugin_record.hpp"
 
 namespace petal {
 namespace {
@@ -138,15 +139,19 @@ PluginRecord parse(const std::string& bytes) {
 
 }  // namespace
 
+PluginRecord read_record(const std::filesystem::path& library) {
+    const ElfFile file(library);
+    check_machine(file.header());
+    const auto bytes = file.section(kSection);
+    if (!bytes)
+        throw Error(std::string("is a shared library but no petal plugin: it has no section ") +
+                    kSection + " (PETAL_PLUGIN writes it)");
+    return parse(*bytes);
+}
+
 PluginRecord read_plugin_record(const std::filesystem::path& library) {
     try {
-        const ElfFile file(library);
-        check_machine(file.header());
-        const auto bytes = file.section(kSection);
-        if (!bytes)
-            throw Error(std::string("is a shared library but no petal plugin: it has no section ") +
-                        kSection + " (PETAL_PLUGIN writes it)");
-        return parse(*bytes);
+        return read_record(library);
     } catch (const Error& error) {
         throw Error("'" + library.string() + "' " + error.what());
     }
