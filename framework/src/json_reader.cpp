@@ -46,12 +46,15 @@ std::string plain_message(const std::string& what) {
     // What was read last may be long, or no text at all: only its end tells something.
     constexpr std::size_t kTail = 24;
     const std::size_t from = quoted + quote.size();
-    const std::size_t to = text.rfind('\'');
+    const std::size_t expectation = text.rfind("'; expected ");
+    const bool expects = expectation != std::string::npos && expectation >= from;
+    const std::size_t to = expects ? expectation : text.rfind('\'');
     std::string last = to > from ? text.substr(from, to - from) : std::string();
     if (last.size() > kTail) last = last.substr(last.size() - kTail);
     std::string ascii;
     for (const char c : last) ascii += static_cast<unsigned char>(c) < 0x80 ? c : '?';
-    return text.substr(0, quoted) + "; last read: '" + printable(ascii) + "'";
+    return with_comma(text.substr(0, quoted) + "; last read: '" + printable(ascii) + "'" +
+                      (expects ? text.substr(expectation + 1) : ""));
 }
 
 /// Builds the tree from nlohmann's events.

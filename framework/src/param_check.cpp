@@ -4,6 +4,7 @@
 #include "param_check.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -197,11 +198,17 @@ std::optional<ParamCheck::Converted> ParamCheck::convert_one(const ParamSpec& pa
     if (param.kind == Kind::boolean) return Converted{node.boolean, node.boolean};
     if (node.is(NodeKind::text)) return convert_text(param, node.text, node.origin, path);
     const auto integer = node.as_int64();
-    if ((param.min && node.real < *param.min) || (param.max && node.real > *param.max) ||
-        (param.kind == Kind::integer && !integer)) {
-        problems_.add(
-            node.origin, path,
-            printable(node.text) + " is out of range; expected " + expected_value(param, false));
+    if (param.kind == Kind::integer && !integer) {
+        problems_.add(node.origin, path,
+                      printable(node.text) + " does not fit 64 bits; expected a smaller number");
+        return std::nullopt;
+    }
+    if ((param.min && node.real < *param.min) || (param.max && node.real > *param.max)) {
+        const bool beyond_int = node.real < std::numeric_limits<int>::min() ||
+                                node.real > std::numeric_limits<int>::max();
+        problems_.add(node.origin, path,
+                      printable(node.text) + " is out of range; expected " +
+                          expected_value(param, false, beyond_int));
         return std::nullopt;
     }
     if (param.kind == Kind::integer) return Converted{*integer, *integer};

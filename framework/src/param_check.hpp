@@ -54,7 +54,8 @@ class ParamCheck {
 };
 
 /// What a parameter takes, for messages: "an integer, at least 1", "a number, 0.001 to 10 m", "one
-/// of huber, none"; of a whole list, or of one value.
-std::string expected_value(const ParamSpec& param, bool list);
+/// of huber, none"; of a whole list, or of one value. The bounds of `int` itself are
+/// told with `whole` only.
+std::string expected_value(const ParamSpec& param, bool list, bool whole = false);
 
 }  // namespace petal

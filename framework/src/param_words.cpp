@@ -18,23 +18,22 @@ std::string number(double value) {
     return std::string(text.data(), end);
 }
 
-/// "0.001 to 10 m", "at least 1"; the bounds of the type `int` itself are not told.
-std::string range(const ParamSpec& param) {
-    const bool integer = param.kind == Kind::integer;
+/// "0.001 to 10 m", "at least 1"; the bounds of the type `int` itself are told where `whole`.
+std::string range(const ParamSpec& param, bool whole) {
+    const bool integer = param.kind == Kind::integer && !whole;
     const bool has_min = param.min && !(integer && *param.min <= std::numeric_limits<int>::min());
     const bool has_max = param.max && !(integer && *param.max >= std::numeric_limits<int>::max());
     const std::string unit = param.unit.empty() || param.unit == "1" ? "" : " " + param.unit;
     if (has_min && has_max) return number(*param.min) + " to " + number(*param.max) + unit;
     if (has_min) return "at least " + number(*param.min) + unit;
     if (has_max) return "at most " + number(*param.max) + unit;
-    if (!param.min && !param.max) return unit.empty() ? "" : "in" + unit;
-    return integer ? "of 32 bits" : "";
+    return unit.empty() ? "" : "in" + unit;
 }
 
 }  // namespace
 
-std::string expected_value(const ParamSpec& param, bool list) {
-    const std::string in_range = range(param);
+std::string expected_value(const ParamSpec& param, bool list, bool whole) {
+    const std::string in_range = range(param, whole);
     const std::string bounds = in_range.empty() ? "" : ", " + in_range;
     switch (param.kind) {
         case Kind::boolean:
