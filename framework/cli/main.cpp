@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "host_errors.hpp"
 #include "run_report.hpp"
 
 /// petal: see the README, or petal --help.
@@ -37,6 +38,12 @@ int main(int argc, char** argv) {
     }
     try {
         return action();
+    } catch (const petal::UsageError& failure) {
+        std::cerr << "petal: " << failure.what() << "\n";
+        return kWrongUsage;
+    } catch (const petal::PluginError& failure) {
+        std::cerr << "petal: " << failure.what() << "\n";
+        return kMissingPlugin;
     } catch (const std::exception& failure) {
         std::cerr << "petal: " << failure.what() << "\n";
         return kRunFailed;

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "petal/error.hpp"
+#include "host_errors.hpp"
 
 namespace petal {
 namespace {
@@ -45,10 +45,10 @@ std::vector<fs::path> environment_folders() {
         const fs::path folder = list.substr(begin, end - begin);
         // A relative folder would load code from wherever the user happens to stand.
         if (!folder.is_absolute())
-            throw Error(folder.empty()
-                            ? "PETAL_PLUGIN_PATH has an empty element; take the surplus ':' out"
-                            : "PETAL_PLUGIN_PATH holds the relative folder '" + folder.string() +
-                                  "'; write its absolute path");
+            throw UsageError(
+                folder.empty() ? "PETAL_PLUGIN_PATH has an empty element; take the surplus ':' out"
+                               : "PETAL_PLUGIN_PATH holds the relative folder '" + folder.string() +
+                                     "'; write its absolute path");
         folders.push_back(folder);
         begin = end + 1;
     }
@@ -73,12 +73,12 @@ std::vector<fs::path> plugin_folders(const std::vector<fs::path>& first) {
     for (const fs::path& folder : first) {
         std::error_code failed;
         if (!fs::exists(folder, failed))
-            throw Error("the plugin folder '" + folder.string() +
-                        "' (--plugin-path) does not exist");
+            throw UsageError("the plugin folder '" + folder.string() +
+                             "' (--plugin-path) does not exist");
         if (!fs::is_directory(folder, failed))
-            throw Error("'" + folder.string() +
-                        "' (--plugin-path) is not a folder; name the folder that "
-                        "holds the plugin");
+            throw UsageError("'" + folder.string() +
+                             "' (--plugin-path) is not a folder; name the folder that "
+                             "holds the plugin");
         add_folder(folders, fs::absolute(folder));
     }
     for (const fs::path& folder : environment_folders()) add_folder(folders, folder);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "declaration_check.hpp"
+#include "host_errors.hpp"
 #include "nearest.hpp"
-#include "petal/error.hpp"
 
 namespace petal {
 namespace {
@@ -23,10 +23,10 @@ void Registry::add(StageSpec spec) {
         throw Error("stage '" + spec.type + "' is not declared completely: " + join(faults, "; "));
     if (const StageSpec* other = find(spec.type)) {
         const bool same = other->library == spec.library;
-        throw Error("stage type '" + spec.type + "' is " +
-                    (same ? "registered twice by " + origin(spec)
-                          : "in two libraries, " + origin(*other) + " and " + origin(spec)) +
-                    "; rename one of them" + (same ? "" : " or take one library away"));
+        throw PluginError("stage type '" + spec.type + "' is " +
+                          (same ? "registered twice by " + origin(spec)
+                                : "in two libraries, " + origin(*other) + " and " + origin(spec)) +
+                          "; rename one of them" + (same ? "" : " or take one library away"));
     }
     std::string type = spec.type;
     stages_.emplace(std::move(type), std::move(spec));

@@ -10,7 +10,7 @@
 #include <ctime>
 #include <system_error>
 
-#include "petal/error.hpp"
+#include "host_errors.hpp"
 
 namespace petal {
 
@@ -37,13 +37,13 @@ fs::path prepare_run_folder(const fs::path& out, bool force, const fs::path& dat
     const fs::path folder = fs::weakly_canonical(fs::absolute(out), error);
     if (error) throw Error("cannot use --out " + out.string() + ": " + error.message());
     if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-        throw Error("--out " + out.string() + " is a file; give the name of a folder");
+        throw UsageError("--out " + out.string() + " is a file; give the name of a folder");
     if (!data.empty() && fs::equivalent(folder, data, error))
-        throw Error("--out " + out.string() +
-                    " is the data folder; a run never writes into its data: give another one");
+        throw UsageError("--out " + out.string() +
+                         " is the data folder; a run never writes into its data: give another one");
     if (fs::exists(folder / "run.json", error)) {
         if (!force)
-            throw Error(
+            throw UsageError(
                 "--out " + out.string() +
                 " holds a run already; give another folder, or --force to replace that run");
         for (const char* name : kRunFiles) fs::remove_all(folder / name, error);
