@@ -3,7 +3,15 @@
 
 #include "petal/plugin.hpp"
 
-#include "sinks/rawlog.hpp"
+#include <opencv2/core/utility.hpp>
 
-PETAL_PLUGIN("sinks", "0.1.0",
-             [](petal::Registrar& r) { r.add<petal::RawlogSink>("sink.rawlog"); });
+#include "sinks/overlay.hpp"
+#include "sinks/rawlog.hpp"
+#include "sinks/result.hpp"
+
+PETAL_PLUGIN("sinks", "0.1.0", [](petal::Registrar& r) {
+    r.add<petal::Overlay>("sink.overlay");
+    r.add<petal::RawlogSink>("sink.rawlog");
+    r.add<petal::ResultSink>("sink.result");
+    r.on_thread_limit([](int threads) { cv::setNumThreads(threads); });
+});
