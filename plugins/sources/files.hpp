@@ -13,8 +13,8 @@
 namespace petal {
 
 struct FilesParams {
-    std::filesystem::path image;
-    std::filesystem::path intrinsics;
+    std::filesystem::path image = "${data}/image.jpg";
+    std::filesystem::path intrinsics = "${data}/intrinsics.yaml";
     std::filesystem::path cloud;
     std::string distortion_model = "auto";
     std::string camera = "CAMERA";

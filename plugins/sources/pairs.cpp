@@ -52,7 +52,8 @@ Rows that are not finite are an error; image points outside the image are told i
 
 Used for the letter's published pairs, and to try a solver on one's own.)");
     spec.writes<Correspondences>("correspondences", "the pairs, of one camera");
-    spec.param("pairs", &Params::pairs).doc("file with x, y, z, u, v");
+    spec.param("pairs", &Params::pairs)
+        .doc("file with x, y, z, u, v; empty where lidar_points and image_points are given");
     spec.param("lidar_points", &Params::lidar_points).doc("file with x y z, in place of pairs");
     spec.param("image_points", &Params::image_points).doc("file with u v, in place of pairs");
     spec.param("intrinsics", &Params::intrinsics).doc("intrinsics of the camera; always needed");
@@ -79,7 +80,9 @@ Used for the letter's published pairs, and to try a solver on one's own.)");
     spec.check([](const Params& p) {
         const bool one = !p.pairs.empty();
         const bool two = !p.lidar_points.empty() || !p.image_points.empty();
-        if (one == two) return "give either pairs, or lidar_points and image_points";
+        if (one && two)
+            return "give either pairs, or lidar_points and image_points and set pairs to \"\"";
+        if (!one && !two) return "pairs is empty, and so are lidar_points and image_points";
         if (two && (p.lidar_points.empty() || p.image_points.empty()))
             return "lidar_points and image_points belong together; give both";
         return "";

@@ -15,10 +15,10 @@
 namespace petal {
 
 struct PairsParams {
-    std::filesystem::path pairs;
+    std::filesystem::path pairs = "${data}/pairs.csv";
     std::filesystem::path lidar_points;
     std::filesystem::path image_points;
-    std::filesystem::path intrinsics;
+    std::filesystem::path intrinsics = "${data}/intrinsics.yaml";
     std::vector<int> image_size;
     std::string distortion_model = "auto";
     std::string camera = "CAMERA";
