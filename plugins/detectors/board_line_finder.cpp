@@ -111,12 +111,8 @@ BoardAttempt BoardFinder::find(const std::vector<Eigen::Vector3d>& points,
     const std::optional<LineSplit> split = split_lines(attempt.lines);
     attempt.threshold = format("%zu + %zu lines of at least min_line_points %d points",
                                grid_.x.size(), grid_.y.size(), params_.min_line_points);
-    if (!split || split->vertical.lines.empty() || split->horizontal.lines.empty()) {
-        const std::size_t vertical = split ? split->vertical.lines.size() : 0;
-        const std::size_t horizontal = split ? split->horizontal.lines.size() : 0;
-        attempt.miss = format("%zu of %zu lines in one direction and %zu of %zu across it",
-                              std::max(vertical, horizontal), grid_.x.size(),
-                              std::min(vertical, horizontal), grid_.y.size());
+    if (!split) {
+        attempt.miss = format("no line among %zu points", points.size());
         return attempt;
     }
     const auto placements =
@@ -183,8 +179,8 @@ void BoardFinder::fit_plain(BoardAttempt& attempt, const std::vector<ScoredPatte
                          params_.edge_tolerance, grid_.y.size());
     if (intersect(attempt, vertical, horizontal, frame)) return;
     for (const ScoredPattern& placement : placements) {
-        const LineSplit lines = lines_of_pattern(grid_, split, placement.pose, attempt.points,
-                                                 static_cast<std::size_t>(params_.min_line_points));
+        const LineSplit lines =
+            lines_of_pattern(grid_, split, placement.pose, attempt.points, kMinPatternPoints);
         if (intersect(attempt, lines.vertical, lines.horizontal, frame)) return;
     }
 }

@@ -73,6 +73,13 @@ std::optional<LineSplit> split_lines(const std::vector<PlanarLine>& lines) {
         split.vertical.direction.normalize();
         turn -= points_vertical * std::asin(split.vertical.direction.dot(right));
     }
+    // A direction that no line shows is across the other.
+    if (points_horizontal <= 0.0)
+        split.horizontal.direction =
+            Eigen::Vector2d(split.vertical.direction.y(), -split.vertical.direction.x());
+    if (points_vertical <= 0.0)
+        split.vertical.direction =
+            Eigen::Vector2d(-split.horizontal.direction.y(), split.horizontal.direction.x());
     split.angle = quarter(pivot + turn / (points_horizontal + points_vertical));
     // The wrap may have crossed 45 deg: then what was horizontal is vertical now.
     if (std::abs(split.angle - pivot) > kPi / 4.0) std::swap(split.horizontal, split.vertical);

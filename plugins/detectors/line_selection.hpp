@@ -19,7 +19,7 @@ struct LineFamily {
         std::size_t count = 0;  ///< points
         Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< plane coordinates, m
     };
-    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< (5), unit length; zero without a line
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< (5), unit length
     std::vector<Line> lines;                              ///< by `at`, ascending
 };
 
