@@ -168,9 +168,9 @@ TEST(PlacementSentence, LeavesOutWhatIsNothingAndKeepsSigns) {
     EXPECT_EQ(placement_sentence(T), "the LiDAR sits at the camera's centre");
     T.translation() << -0.0462, 0.0, 0.0;
     EXPECT_EQ(placement_sentence(T), "the LiDAR sits 4.6 cm left of the camera");
-    T.translation() << 0.0, 0.1505, 0.0673;
+    T.translation() << 0.0, 0.1502, 0.0673;
     EXPECT_EQ(placement_sentence(T),
-              "the LiDAR sits 15.1 cm below and 6.7 cm in front of the camera");
+              "the LiDAR sits 15.0 cm below and 6.7 cm in front of the camera");
 }
 
 }  // namespace
