@@ -16,8 +16,8 @@ class Registry {
    public:
     /// \throws Error when the declaration is incomplete (no summary; a port or parameter without
     /// documentation; a double without unit or range; a default outside its own range or choices;
-    /// names that are not lower case letters, digits and `_`, types not of the form kind.name) or when
-    /// the type is taken, naming both libraries.
+    /// names that are not lower case letters, digits and `_`, types not of the form kind.name) or
+    /// when the type is taken, naming both libraries.
     void add(StageSpec spec);
 
     const StageSpec* find(const std::string& type) const;
