@@ -70,15 +70,43 @@ class IntrinsicsReader {
         return plain;
     }
 
+    /// MRPT's parser takes a list that never ends for one that does, and tells of it on stderr
+    /// only.
+    void require_closed_brackets(const std::string& text) const {
+        int open = 0;
+        char quote = '\0';
+        bool comment = false;
+        for (const char c : text) {
+            if (c == '\n') {
+                comment = false;
+                quote = '\0';
+            } else if (comment) {
+                continue;
+            } else if (quote != '\0') {
+                if (c == quote) quote = '\0';
+            } else if (c == '"') {
+                quote = c;
+            } else if (c == '#') {
+                comment = true;
+            } else if (c == '[' || c == '{') {
+                ++open;
+            } else if (c == ']' || c == '}') {
+                --open;
+            }
+        }
+        if (open != 0) fail("is no YAML: a bracket is not closed; is the file cut off?");
+    }
+
     Raw read_yaml() const {
         const std::string text = plain_yaml(read_whole_file(file_, "intrinsics file"));
+        require_closed_brackets(text);
         yaml root;
         try {
             root = yaml::FromText(text);
         } catch (const std::exception&) {
             fail("is no YAML");
         }
-        if (!root.isMap()) fail("is no YAML map");
+        if (!root.isMap() || root.empty()) fail("is no YAML, or holds no keys");
         Raw raw;
         raw.matrix = numbers(
             root, {"CameraMat", "camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "M1"});

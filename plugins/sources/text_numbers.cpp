@@ -86,8 +86,11 @@ TextTable read_text_table(const std::filesystem::path& file, const std::string& 
         line = trim(line.substr(0, line.find('#')));
         if (line.empty()) continue;
         const std::vector<std::string_view> words = split_words(line);
+        // A word that begins like a number is a slip in the first row, not a header.
         const bool header = std::none_of(words.begin(), words.end(), [](std::string_view word) {
-            return parse_number(word).has_value();
+            return parse_number(word).has_value() ||
+                   std::string_view("+-.0123456789").find(word.substr(0, 1)) !=
+                       std::string_view::npos;
         });
         if (first && header) {
             table.header.assign(words.begin(), words.end());
