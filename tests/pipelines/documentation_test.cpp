@@ -44,9 +44,10 @@ TEST(Documentation, TheReadmesTableIsUpToDate) {
 TEST(Documentation, EveryPipelineStandsInItsTable) {
     const fs::path folder = fs::path(PETAL_SOURCE_DIR) / "pipelines";
     const std::string table = read_text(folder / "README.md");
-    for (const auto& file : fs::recursive_directory_iterator(folder))
-        if (file.path().extension() == ".json")
-            EXPECT_THAT(table, ::testing::HasSubstr(fs::relative(file.path(), folder).string()));
+    for (const auto& file : fs::recursive_directory_iterator(folder)) {
+        if (file.path().extension() != ".json") continue;
+        EXPECT_THAT(table, ::testing::HasSubstr(fs::relative(file.path(), folder).string()));
+    }
 }
 
 }  // namespace

@@ -62,9 +62,6 @@ class PetalProcess : public ::testing::Test {
     static std::string pipeline(const std::string& name) {
         return "'" PETAL_SOURCE_DIR "/pipelines/" + name + "'";
     }
-    nlohmann::json json(const fs::path& file) const {
-        return nlohmann::json::parse(read_text(folder_ / file), nullptr, false);
-    }
 
     fs::path folder_;
 };
