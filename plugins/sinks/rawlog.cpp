@@ -28,23 +28,25 @@ std::string scene_text(const FrameInfo& frame) {
 
 void RawlogSink::describe(Spec<Params>& spec) {
     spec.summary("Writes scenes, or single observations, to an MRPT rawlog in the run folder.");
-    spec.doc(R"(Wire either `cloud` and `images` (one or both, and `truth` where there is one), or
-`observation`. Of a scene, each message of the cloud becomes a `CObservationPointCloud` with a `CPointsMapXYZI`,
-each image a `CObservationImage` with its `cameraParams`; label, stamp and sensor pose go with them, ordered by
-stamp. A filtered cloud has no messages any more: it is written as one, with the scene's stamp. Observations
-are written as they come; what they keep in files of their own is put in.
+    spec.doc(R"(Wire either `cloud` and `images` (one or both, and `truth` where there is one),
+or `observation`. Of a scene, each message of the cloud becomes a `CObservationPointCloud` with a
+`CPointsMapXYZI`, each image a `CObservationImage` with its `cameraParams`; label, stamp and
+sensor pose go with them, ordered by stamp. A filtered cloud has no messages any more: it is
+written as one, with the scene's stamp. Observations are written as they come; what they keep in
+files of their own is put in.
 
-`source.rawlog` reads from the file what was wired here: points and intensities bit by bit, stamps to the tick
-(100 ns), pixels without loss (MRPT would pack colour as JPEG only if a switch of the whole process asked for
-it; then this stage refuses to write), intrinsics. Sensor poses go through MRPT's quaternion, so they may differ by
-rounding.
+`source.rawlog` reads from the file what was wired here: points and intensities bit by bit, stamps
+to the tick (100 ns), pixels without loss (MRPT would pack colour as JPEG only if a switch of the
+whole process asked for it; then this stage refuses to write), intrinsics. Sensor poses go through
+MRPT's quaternion, so they may differ by rounding.
 
-All scenes go into one file, unless `file` holds `{scene}`, for which the scene's name is put in: then each has a
-file of its own. A truth that is not empty is written beside the rawlog, as `truth.json` and `labels.u8`. It is
-that of one scene, so a second one in the same file is an error.
+All scenes go into one file, unless `file` holds `{scene}`, for which the scene's name is put in:
+then each has a file of its own. A truth that is not empty is written beside the rawlog, as
+`truth.json` and `labels.u8`. It is that of one scene, so a second one in the same file is an
+error.
 
-The file is compressed with gzip, written as a stream, and gets its name when it is whole. `rawlog-edit` and
-other MRPT programs open it.)");
+The file is compressed with gzip, written as a stream, and gets its name when it is whole.
+`rawlog-edit` and other MRPT programs open it.)");
     spec.reads<Cloud>("cloud", "points to write").optional();
     spec.reads<Images>("images", "images to write").optional();
     spec.reads<Truth>("truth", "what is known of the scene").optional();

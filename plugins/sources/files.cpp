@@ -40,25 +40,27 @@ mrpt::img::CImage read_image(const fs::path& file) {
 
 void FilesSource::describe(Spec<Params>& spec) {
     spec.summary("Makes one scene of plain files: an image with its intrinsics, and a cloud.");
-    spec.doc(R"(Each of the two may be left out (an empty path), not both; its packet is then empty.
+    spec.doc(R"(Each of the two may be left out (an empty path), not both; its packet is then
+empty.
 
-**Image**: whatever OpenCV reads, as 8 bit grey or colour. The pixels are those of the file: an EXIF
-orientation is not applied, because the intrinsics belong to the sensor's own rows and columns.
+**Image**: whatever OpenCV reads, as 8 bit grey or colour. The pixels are those of the file: an
+EXIF orientation is not applied, because the intrinsics belong to the sensor's own rows and
+columns.
 
 **Intrinsics**: YAML of OpenCV or ROS (`CameraMat`, `camera_matrix`, `K`, ...; `DistCoeff`,
-`distortion_coefficients`, `D`, ...; `ImageSize` or `image_width` and `image_height`), or text with the word
-`intrinsic` and nine numbers, then the word `distortion` and its coefficients. Plumb bob takes 4, 5 or 8
-coefficients, Kannala-Brandt (fisheye, equidistant) 4; more than 8 are refused, because MRPT's camera holds
-no more. Where the file gives no image size, the image's is taken, and the log says so; where it gives
-another size, the run ends.
+`distortion_coefficients`, `D`, ...; `ImageSize` or `image_width` and `image_height`), or text
+with the word `intrinsic` and nine numbers, then the word `distortion` and its coefficients. Plumb
+bob takes 4, 5 or 8 coefficients, Kannala-Brandt (fisheye, equidistant) 4; more than 8 are
+refused, because MRPT's camera holds no more. Where the file gives no image size, the image's is
+taken, and the log says so; where it gives another size, the run ends.
 
-**Cloud**: by its ending `.pcd` (ascii, binary, binary_compressed) or `.ply` (ascii, binary), else text with
-`x y z` and perhaps intensity, separated by commas, semicolons, blanks or tabs, with `#` comments and perhaps
-a header line. Metres, in the LiDAR's own frame. Points that are not finite are kept and counted. An empty
-cloud is valid; a note says so. Details in `docs/data_formats.md`.
+**Cloud**: by its ending `.pcd` (ascii, binary, binary_compressed) or `.ply` (ascii, binary), else
+text with `x y z` and perhaps intensity, separated by commas, semicolons, blanks or tabs, with `#`
+comments and perhaps a header line. Metres, in the LiDAR's own frame. Points that are not finite
+are kept and counted. An empty cloud is valid; a note says so. Details in `docs/data_formats.md`.
 
-**Truth**: that of a `truth.json` (and `labels.u8`) in the folder of the image, or of the cloud where there
-is no image; else empty.
+**Truth**: that of a `truth.json` (and `labels.u8`) in the folder of the image, or of the cloud
+where there is no image; else empty.
 
 The scene is named after that folder. Files carry no time: the stamps are 0.)");
     spec.writes<Cloud>("cloud", "the cloud file's points, in their order");

@@ -36,19 +36,21 @@ TextTable read_table(Run& run, const fs::path& file, const std::string& what, st
 void PairsSource::describe(Spec<Params>& spec) {
     spec.summary("Reads given pairs of LiDAR points and image points.");
     spec.doc(
-        R"(The pairs come from one file (`pairs`: x, y, z in metres in the LiDAR's frame and u, v in raw
-pixels, five columns), or from two files with a row each (`lidar_points`: x y z; `image_points`: u v). Commas,
-semicolons, blanks or tabs separate the columns; `#` begins a comment. Row i of the one belongs to row i of the
-other: nothing is matched, the order is decided by what is given, and a result says so.
+        R"(The pairs come from one file (`pairs`: x, y, z in metres in the LiDAR's frame and
+u, v in raw pixels, five columns), or from two files with a row each (`lidar_points`: x y z;
+`image_points`: u v). Commas, semicolons, blanks or tabs separate the columns; `#` begins a
+comment. Row i of the one belongs to row i of the other: nothing is matched, the order is decided
+by what is given, and a result says so.
 
-`first` and `count` pick a range of rows. Of these the first `leading_points` are single points; the rest are
-boards in blocks of `corners_per_board` rows. A board's corners are numbered row by row from the top left, as
-everywhere in petal; where the file lists them column by column, say so with `corner_order`. A solver needs to
-know which pairs are corners of boards, because the 32 numbers of a four-hole board come from about 8 lines,
-so they weigh less than 32 measurements.
+`first` and `count` pick a range of rows. Of these the first `leading_points` are single points;
+the rest are boards in blocks of `corners_per_board` rows. A board's corners are numbered row by
+row from the top left, as everywhere in petal; where the file lists them column by column, say so
+with `corner_order`. A solver needs to know which pairs are corners of boards, because the 32
+numbers of a four-hole board come from about 8 lines, so they weigh less than 32 measurements.
 
-The intrinsics are read as `source.files` reads them. Where the file gives no image size, give `image_size`.
-Rows that are not finite are an error; image points outside the image are told in the log.
+The intrinsics are read as `source.files` reads them. Where the file gives no image size, give
+`image_size`. Rows that are not finite are an error; image points outside the image are told in
+the log.
 
 Used for the letter's published pairs, and to try a solver on one's own.)");
     spec.writes<Correspondences>("correspondences", "the pairs, of one camera");

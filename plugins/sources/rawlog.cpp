@@ -19,31 +19,35 @@ namespace fs = std::filesystem;
 void RawlogSource::describe(Spec<Params>& spec) {
     spec.summary("Reads scenes from MRPT rawlogs: one LiDAR's points and an image of each camera.");
     spec.doc(
-        R"(One file is one scene, unless `split` says otherwise: `gap` begins a new scene where an
-observation's stamp is more than `gap` seconds after the latest before it. Both rawlog layouts (observations
-only; actions and sensory frames) are read, compressed or not, as a stream: memory is that of one scene.
+        R"(One file is one scene, unless `split` says otherwise: `gap` begins a new scene
+where an observation's stamp is more than `gap` seconds after the latest before it. Both rawlog
+layouts (observations only; actions and sensory frames) are read, compressed or not, as a stream:
+memory is that of one scene.
 
-**LiDAR**: all observations of one label are accumulated, in the sensor's own frame (its pose on the vehicle is
-recorded, not applied): `CObservationPointCloud` with any points map, `CObservation3DRangeScan`,
-`CObservationVelodyneScan`, `CObservation2DRangeScan`, and a flat `CObservationRotatingScan` (MRPT 2.5 keeps no
-elevation angles). Intensity is kept where there is one: as it is from a `CPointsMapXYZI`, divided by 255 where it
-is a byte. The label is given exactly or as a shell pattern that fits one label; by default it is the only LiDAR
-there is, and with several the run ends with the list of them. A rawlog without a LiDAR gives an empty cloud and a
-note, unless a label was asked for.
+**LiDAR**: all observations of one label are accumulated, in the sensor's own frame (its pose on
+the vehicle is recorded, not applied): `CObservationPointCloud` with any points map,
+`CObservation3DRangeScan`, `CObservationVelodyneScan`, `CObservation2DRangeScan`, and a flat
+`CObservationRotatingScan` (MRPT 2.5 keeps no elevation angles). Intensity is kept where there is
+one: as it is from a `CPointsMapXYZI`, divided by 255 where it is a byte. The label is given
+exactly or as a shell pattern that fits one label; by default it is the only LiDAR there is, and
+with several the run ends with the list of them. A rawlog without a LiDAR gives an empty cloud and
+a note, unless a label was asked for.
 
-**Cameras**: `CObservationImage` with its `cameraParams`, all labels by default. Of several images of one camera
-the sharpest is taken, by the variance of the Laplacian. Images in files of their own are looked for in
-`<stem>_Images`, `<stem>_images`, `Images` and beside the rawlog. An image of another size than its intrinsics'
-ends the run.
+**Cameras**: `CObservationImage` with its `cameraParams`, all labels by default. Of several images
+of one camera the sharpest is taken, by the variance of the Laplacian. Images in files of their
+own are looked for in `<stem>_Images`, `<stem>_images`, `Images` and beside the rawlog. An image
+of another size than its intrinsics' ends the run.
 
-**Truth**: a `truth.json` in the rawlog's folder, with `labels.u8`, one byte a point in rawlog order; else empty.
-It is that of one scene, so it is left out where `split` is on.
+**Truth**: a `truth.json` in the rawlog's folder, with `labels.u8`, one byte a point in rawlog
+order; else empty. It is that of one scene, so it is left out where `split` is on.
 
-MRPT takes a rawlog that was cut off, or is damaged, for one that ends. Here the run ends with what was read whole
-and where it broke: at the gzip trailer, inside which object, or at a class that this MRPT does not know. A file
-without compression that was cut off exactly between two objects cannot be told from a whole one.
+MRPT takes a rawlog that was cut off, or is damaged, for one that ends. Here the run ends with
+what was read whole and where it broke: at the gzip trailer, inside which object, or at a class
+that this MRPT does not know. A file without compression that was cut off exactly between two
+objects cannot be told from a whole one.
 
-A scene is named after its file's stem, or after the folder where the stem is `scene`; split scenes are numbered.)");
+A scene is named after its file's stem, or after the folder where the stem is `scene`; split
+scenes are numbered.)");
     spec.writes<Cloud>("cloud", "the LiDAR's points, in rawlog order, with their messages");
     spec.writes<Images>("images", "one image a camera, ordered by label");
     spec.writes<Truth>("truth", "what is known of a simulated scene; empty for real data");
