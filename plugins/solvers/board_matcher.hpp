@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <vector>
+
+#include "petal/calibration/boards.hpp"
+#include "petal/calibration/correspondences.hpp"
+#include "petal/run.hpp"
+#include "petal/spec.hpp"
+#include "petal/stage.hpp"
+#include "solvers/order_choice.hpp"
+
+namespace petal {
+
+struct BoardMatcherParams : OrderParams, GateParams {
+    BoardMatcherParams() {}  // not an aggregate: GCC 12 warns of one with such bases
+    bool use_distortion = true;
+    double lidar_sigma = 0.005;
+};
+
+/// `solver.board_matcher`: which LiDAR board is which image board, in which rotation.
+class BoardMatcher final : public Stage {
+   public:
+    using Params = BoardMatcherParams;
+    static void describe(Spec<Params>& s);
+    explicit BoardMatcher(Params params) : p_(std::move(params)) {}
+    void run(Run& run) override;
+
+   private:
+    CameraPairs match(Run& run, const LidarBoards& lidar, const ImageBoards& image,
+                      const CameraInfo& camera) const;
+    /// Adds what the LiDAR's noise makes in the image to each pair's covariance.
+    void add_lidar_noise(const CameraModel& model, const std::vector<LidarBoard>& boards,
+                         const OrderChoice& choice, std::vector<PointPair>& pairs) const;
+
+    Params p_;
+};
+
+}  // namespace petal
