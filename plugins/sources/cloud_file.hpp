@@ -22,8 +22,9 @@ struct CloudFile {
 };
 
 /// Reads a cloud by its ending: .pcd (ascii, binary, binary_compressed), .ply (ascii, binary),
-/// anything else as text (x y z [intensity]). Metres are assumed. A file without points is an empty
-/// cloud. \throws Error naming the file and the place: no such file, wrong header, truncated, no
+/// anything else as text (x y z [intensity]). Metres are assumed. A file without points is an
+/// empty cloud.
+/// \throws Error naming the file and the place: no such file, wrong header, truncated, no
 /// numbers.
 CloudFile read_cloud_file(const std::filesystem::path& file);
 

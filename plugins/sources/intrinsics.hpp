@@ -21,15 +21,15 @@ struct Intrinsics {
 /// Reads the intrinsics of one camera:
 /// - YAML (.yaml, .yml) of OpenCV or ROS: the matrix as CameraMat, camera_matrix, Camera_Matrix, K
 /// or
-///   cameraMatrix; distortion as DistCoeff, distortion_coefficients, Distortion_Coefficients, D or
-///   distCoeffs; size as ImageSize [width, height], image_width and image_height, or width and
-///   height; the model as DistModel, distortion_model or camera_model;
+/// cameraMatrix; distortion as DistCoeff, distortion_coefficients, Distortion_Coefficients, D or
+/// distCoeffs; size as ImageSize [width, height], image_width and image_height, or width and
+/// height; the model as DistModel, distortion_model or camera_model;
 /// - else text: the word `intrinsic` and nine numbers, the word `distortion` and its coefficients.
 ///
 /// `model`: auto, none, plumb_bob, kannala_brandt. With auto the file's own word counts (plumb_bob,
 /// radtan, rational_polynomial, ...; equidistant, fisheye, kannala_brandt); without a word it is
-/// plumb bob. Plumb bob takes 4, 5 or 8 coefficients in OpenCV's order, Kannala-Brandt 4. \throws
-/// Error naming the file and what is wrong.
+/// plumb bob. Plumb bob takes 4, 5 or 8 coefficients in OpenCV's order, Kannala-Brandt 4.
+/// \throws Error naming the file and what is wrong.
 Intrinsics read_intrinsics(const std::filesystem::path& file, const std::string& model = "auto");
 
 /// Puts the image's size where the intrinsics have none, which returns true.

@@ -13,8 +13,9 @@ namespace petal {
 bool is_lidar(const mrpt::obs::CObservation& observation);
 
 /// Appends the observation's points in the sensor's own frame (its pose on the vehicle is not
-/// applied) with intensity where there is one (0 else). Works on `observation` where MRPT converts
-/// in place. \throws Error naming the sensor where the class cannot be converted.
+/// applied) with intensity where there is one (0 else). Works on `observation` where MRPT
+/// converts in place.
+/// \throws Error naming the sensor where the class cannot be converted.
 void append_lidar_points(mrpt::obs::CObservation& observation, mrpt::maps::CPointsMapXYZI& points);
 
 }  // namespace petal

@@ -23,15 +23,16 @@ class RawlogReader {
     /// \throws Error when there is no such file or it cannot be opened.
     explicit RawlogReader(std::filesystem::path file);
 
-    /// The next observation, those of a sensory frame one by one; null after the last. Actions are
-    /// passed over. \throws Error, saying how much was read whole and where it broke: cut off,
-    /// damaged, a class that this MRPT does not know, no rawlog.
+    /// The next observation, those of a sensory frame one by one; null after the last. Actions
+    /// are passed over.
+    /// \throws Error, saying how much was read whole and where it broke: cut off, damaged, a
+    /// class that this MRPT does not know, no rawlog.
     mrpt::obs::CObservation::Ptr next();
 
     /// Loads what an observation keeps in files of their own: looked for in the rawlog's image
-    /// folder
-    /// (`<stem>_Images`, `<stem>_images`, `Images`), then beside the rawlog. The observation then
-    /// holds it. \throws Error naming the file and where it was looked for.
+    /// folder (`<stem>_Images`, `<stem>_images`, `Images`), then beside the rawlog. The
+    /// observation then holds it.
+    /// \throws Error naming the file and where it was looked for.
     void load(mrpt::obs::CObservation& observation);
 
     const std::filesystem::path& file() const { return file_; }

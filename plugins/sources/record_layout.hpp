@@ -25,8 +25,8 @@ struct RecordLayout {
     std::size_t records = 0;
     bool big_endian = false;
 
-    /// Bytes of one binary record. \throws Error, naming the file, when that or the file's size
-    /// overflows.
+    /// Bytes of one binary record.
+    /// \throws Error, naming the file, when that or the file's size overflows.
     std::size_t record_bytes() const;
     std::size_t words() const;  ///< numbers of one text record
 };

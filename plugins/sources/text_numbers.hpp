@@ -32,9 +32,10 @@ struct TextTable {
 };
 
 /// Reads lines of numbers separated by commas, semicolons, blanks or tabs. Empty lines and what
-/// follows a '#' are left out; the first line that is left may be a header. NaN and infinities are
-/// numbers. A file without a row is an empty table. \throws Error with file and line: no number,
-/// another count of columns than in the first row, fewer than `min_columns`, decimal commas.
+/// follows a '#' are left out; the first line that is left may be a header. NaN and infinities
+/// are numbers. A file without a row is an empty table.
+/// \throws Error with file and line: no number, another count of columns than in the first row,
+/// fewer than `min_columns`, decimal commas.
 TextTable read_text_table(const std::filesystem::path& file, const std::string& what,
                           std::size_t min_columns);
 

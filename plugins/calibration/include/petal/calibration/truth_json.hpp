@@ -11,10 +11,10 @@
 
 namespace petal {
 
-/// Reads `folder`/truth.json, and labels.u8 where it lies beside it. An empty Truth where there is
-/// no truth.json. Keys that petal does not know are passed over: simulators may tell more. \throws
-/// Error naming the file and the key: no JSON, wrong shapes, labels that are not one a point of
-/// `points` (where given), a label above 3.
+/// Reads `folder`/truth.json, and labels.u8 where it lies beside it. An empty Truth where there
+/// is no truth.json. Keys that petal does not know are passed over: simulators may tell more.
+/// \throws Error naming the file and the key: no JSON, wrong shapes, labels that are not one a
+/// point of `points` (where given), a label above 3.
 Truth read_truth(const std::filesystem::path& folder, std::optional<std::size_t> points = {});
 
 /// Writes all but the labels as JSON, and how many points have each label.
