@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "petal/plugin.hpp"
+
+#include "metrics/reprojection.hpp"
+#include "petal/calibration/metrics.hpp"
+
+PETAL_PLUGIN("metrics", "0.1.0",
+             [](petal::Registrar& r) { r.add<petal::ReprojectionMetric>("metric.reprojection"); });
