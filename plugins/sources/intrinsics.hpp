@@ -21,9 +21,9 @@ struct Intrinsics {
 /// Reads the intrinsics of one camera:
 /// - YAML (.yaml, .yml) of OpenCV or ROS: the matrix as CameraMat, camera_matrix, Camera_Matrix, K
 /// or
-/// cameraMatrix; distortion as DistCoeff, distortion_coefficients, Distortion_Coefficients, D or
-/// distCoeffs; size as ImageSize [width, height], image_width and image_height, or width and
-/// height; the model as DistModel, distortion_model or camera_model;
+///   cameraMatrix; distortion as DistCoeff, distortion_coefficients, Distortion_Coefficients, D or
+///   distCoeffs; size as ImageSize [width, height], image_width and image_height, or width and
+///   height; the model as DistModel, distortion_model or camera_model;
 /// - else text: the word `intrinsic` and nine numbers, the word `distortion` and its coefficients.
 ///
 /// `model`: auto, none, plumb_bob, kannala_brandt. With auto the file's own word counts (plumb_bob,
