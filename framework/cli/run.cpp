@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "command.hpp"
+#include "host_errors.hpp"
 #include "petal/output.hpp"
 #include "run_folder.hpp"
 #include "run_report.hpp"
@@ -55,7 +56,13 @@ int run(const PipelineOptions& options, const GlobalOptions& global) {
     request.need_data = true;
     if (!request.out) request.out = default_run_folder(request.file.stem().string());
     request.out = std::filesystem::absolute(*request.out);
-    if (request.data) request.data = std::filesystem::absolute(*request.data);
+    if (request.data) {
+        std::error_code ignored;
+        if (!std::filesystem::is_directory(*request.data, ignored))
+            throw UsageError("--data " + request.data->string() +
+                             " is no folder; give the folder that holds the data");
+        request.data = std::filesystem::absolute(*request.data);
+    }
     int code = kDone;
     const auto pipeline = checked(request, plugins, code);
     if (!pipeline) return code;

@@ -35,13 +35,15 @@ struct PluginSet {
     std::vector<std::function<void(int)>> thread_limits;
 };
 
-/// Folders in order: `first` (--plugin-path), those of PETAL_PLUGIN_PATH, then the installed or built place
-/// (lib/petal beside libpetal.so). Never the working folder or LD_LIBRARY_PATH; an empty or relative
-/// element of PETAL_PLUGIN_PATH is refused. A folder that does not exist is an error for `first` only.
+/// Folders in order: `first` (--plugin-path), those of PETAL_PLUGIN_PATH, then the installed or
+/// built place (lib/petal beside libpetal.so). Never the working folder or LD_LIBRARY_PATH; an
+/// empty or relative element of PETAL_PLUGIN_PATH is refused. A folder that does not exist is an
+/// error for `first` only.
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& first);
 
-/// Loads every plugin of the folders (sorted by file name in each; a library found twice is loaded once).
-/// A bad library is skipped and remembered. \throws Error on two libraries with one stage type.
+/// Loads every plugin of the folders (sorted by file name in each; a library found twice is loaded
+/// once). A bad library is skipped and remembered. \throws Error on two libraries with one stage
+/// type.
 PluginSet load_plugins(const std::vector<std::filesystem::path>& folders);
 
 /// Reads the record of a library from the file, without opening the library.

@@ -8,8 +8,8 @@
 
 namespace petal {
 
-/// The name of `known` that a typo most likely meant: smallest Damerau-Levenshtein distance, at most a
-/// third of the length and at least 1 allowed. Empty when none is near.
+/// The name of `known` that a typo most likely meant: smallest Damerau-Levenshtein distance, at
+/// most a third of the length and at least 1 allowed. Empty when none is near.
 std::string nearest(const std::string& typo, const std::vector<std::string>& known);
 
 /// "; did you mean 'radius'?" or nothing.

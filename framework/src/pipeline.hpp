@@ -18,10 +18,10 @@ namespace petal {
 
 /// Something wrong in a pipeline or a patch, where it stands.
 struct Problem {
-    std::string file;     ///< as the user named it; "--set" for the command line
-    int line = 0;         ///< 1-based; 0 where there is none
-    std::string path;     ///< JSON path: stages.margins.params.radius
-    std::string message;  ///< what is wrong, what was expected, the nearest right name
+    std::string file;           ///< as the user named it; "--set" for the command line
+    int line = 0;               ///< 1-based; 0 where there is none
+    std::string path;           ///< JSON path: stages.margins.params.radius
+    std::string message;        ///< what is wrong, what was expected, the nearest right name
     bool missing_type = false;  ///< an unknown stage type: perhaps a refused library has it
 };
 /// "FILE:LINE: PATH: MESSAGE".
@@ -37,10 +37,11 @@ struct Wire {
 struct StageNode {
     std::string id;
     const StageSpec* spec = nullptr;
-    std::map<std::string, Value> values;             ///< every parameter, defaults included, expanded
-    std::shared_ptr<void> params;                    ///< the stage's Params struct
-    std::map<std::string, std::vector<Wire>> inputs;  ///< by port; several wires on gathering ports only
-    bool once = false;                               ///< fires once, after the last frame
+    std::map<std::string, Value> values;  ///< every parameter, defaults included, expanded
+    std::shared_ptr<void> params;         ///< the stage's Params struct
+    std::map<std::string, std::vector<Wire>>
+        inputs;         ///< by port; several wires on gathering ports only
+    bool once = false;  ///< fires once, after the last frame
 };
 
 struct Pipeline {

@@ -31,6 +31,21 @@ TextTable read_table(Run& run, const fs::path& file, const std::string& what, st
     return table;
 }
 
+/// Numbers the side * side corners of one upright board row by row: rows by v, within a row by u.
+void number_from_image(PointPair* corners, int side) {
+    std::vector<PointPair*> order;
+    for (int i = 0; i < side * side; ++i) order.push_back(corners + i);
+    const auto by = [](int axis) {
+        return [axis](const PointPair* a, const PointPair* b) {
+            return a->image(axis) < b->image(axis);
+        };
+    };
+    std::stable_sort(order.begin(), order.end(), by(1));
+    for (int row = 0; row < side; ++row)
+        std::stable_sort(order.begin() + row * side, order.begin() + (row + 1) * side, by(0));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k]->corner = static_cast<int>(k);
+}
+
 }  // namespace
 
 void PairsSource::describe(Spec<Params>& spec) {
@@ -45,7 +60,8 @@ by what is given, and a result says so.
 `first` and `count` pick a range of rows. Of these the first `leading_points` are single points;
 the rest are boards in blocks of `corners_per_board` rows. A board's corners are numbered row by
 row from the top left, as everywhere in petal; where the file lists them column by column, say so
-with `corner_order`. A solver needs to know which pairs are corners of boards, because the 32
+with `corner_order`, or let `from_image` number them by where they lie in the image (for boards that are
+rolled by less than about 15 deg there: rows are told apart by v). A solver needs to know which pairs are corners of boards, because the 32
 numbers of a four-hole board come from about 8 lines, so they weigh less than 32 measurements.
 
 The intrinsics are read as `source.files` reads them. Where the file gives no image size, give
@@ -77,8 +93,10 @@ Used for the letter's published pairs, and to try a solver on one's own.)");
         .within(0, 1000)
         .doc("rows of one board; 16 for the four-hole board; 0: all are single points");
     spec.param("corner_order", &Params::corner_order)
-        .choices({"rows", "columns"})
-        .doc("how the file lists the corners of a board, from its top left");
+        .choices({"rows", "columns", "from_image"})
+        .doc(
+            "how the file lists the corners of a board, from its top left; from_image: in any "
+            "order");
     spec.check([](const Params& p) {
         const bool one = !p.pairs.empty();
         const bool two = !p.lidar_points.empty() || !p.image_points.empty();
@@ -98,8 +116,9 @@ Used for the letter's published pairs, and to try a solver on one's own.)");
                    : "image_size must be two numbers, width and height, or empty";
     });
     spec.check([](const Params& p) {
-        return p.corner_order == "columns" && square_side(p.corners_per_board) == 0
-                   ? "corner_order columns needs corners_per_board to be a square, like 16"
+        return p.corner_order != "rows" && square_side(p.corners_per_board) == 0
+                   ? "corner_order columns and from_image need corners_per_board to be a square, "
+                     "like 16"
                    : "";
     });
     spec.check([](const Params& p) {
@@ -164,6 +183,9 @@ void PairsSource::mark_boards(std::vector<PointPair>& pairs) const {
         pair.board = i / each;
         pair.corner = params_.corner_order == "columns" ? (k % side) * side + k / side : k;
     }
+    if (params_.corner_order == "from_image")
+        for (int begin = singles; begin < singles + corners; begin += each)
+            number_from_image(&pairs[static_cast<std::size_t>(begin)], side);
 }
 
 mrpt::img::TCamera PairsSource::read_camera(Run& run) const {

@@ -58,7 +58,7 @@ TEST_F(CommandLine, FiveMistakesAreToldAtOnce) {
     "planes": { "type": "detector.planes_ransac", "in": { "clouds": "boards.boards" } },
     "boards": { "type": "detector.image_contours", "in": { "images": "camera.images" } },
     "solve": { "type": "solver.reprojection", "in": { "correspondences": "match.correspondences" },
-               "params": { "los": "huber" } },
+               "params": { "robust_los": "huber" } },
     "match": { "type": "solver.board_matcher", "in": { "image": "boards.boards", "lidar": "planes.planes" } }
   } })");
     const Ended ended = petal("run bad.json --out out");
@@ -68,8 +68,8 @@ TEST_F(CommandLine, FiveMistakesAreToldAtOnce) {
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("bad.json:4: stages.planes.in.clouds"), HasSubstr("'cloud'")));
     EXPECT_THAT(ended.err, HasSubstr("bad.json:5: stages.boards.in.images"));
-    EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("bad.json:7: stages.solve.params.los"), HasSubstr("'loss'")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("bad.json:7: stages.solve.params.robust_los"),
+                                 HasSubstr("'robust_loss'")));
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("bad.json:8: stages.match.in.lidar"), HasSubstr("LidarBoards")));
     EXPECT_FALSE(fs::exists(folder_ / "out"));

@@ -67,6 +67,22 @@ TEST_F(PairsStage, PicksRowsAndMarksBoards) {
     EXPECT_EQ(pairs[4].board, 0);
 }
 
+TEST_F(PairsStage, NumbersCornersByWhereTheyLieInTheImage) {
+    // A slightly rolled 2 x 2 board in the order lower left, upper right, lower right, upper left.
+    write("scrambled.csv", "0,0,2,10,41\n0,0,2,41,12\n0,0,2,40,43\n0,0,2,11,10\n");
+    StageHarness harness = stage();
+    harness.set("pairs", (folder_ / "scrambled.csv").c_str())
+        .set("corners_per_board", 4)
+        .set("corner_order", "from_image");
+    harness.fire();
+    const auto& pairs = harness.out<Correspondences>("correspondences").cameras.at(0).pairs;
+    ASSERT_EQ(pairs.size(), 4U);
+    EXPECT_EQ(pairs[0].corner, 2);
+    EXPECT_EQ(pairs[1].corner, 1);
+    EXPECT_EQ(pairs[2].corner, 3);
+    EXPECT_EQ(pairs[3].corner, 0);
+}
+
 TEST_F(PairsStage, NamesWhatIsWrong) {
     StageHarness range = stage();
     range.set("first", 4).set("count", 3);
