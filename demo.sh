@@ -6,13 +6,13 @@
 # lies. The real data are read from PETAL_REAL_DATA or ../shared/data; where they are absent, a synthetic scene of the
 # same form is made and used instead. Exits 0 when the run itself went well, whatever its verdict.
 set -euo pipefail
+data=$(realpath -m "${PETAL_REAL_DATA:-$(dirname "$0")/../shared/data}")/sjtu_indoor
 cd "$(dirname "$0")"
 
 scripts/install_packages.sh
 echo "building"
 scripts/build.sh petal_runtime
 
-data=${PETAL_REAL_DATA:-../shared/data}/sjtu_indoor
 if [ -e "$data/lidar_margin_points.csv" ]; then
     echo "calibrating on the letter's indoor scene, $data"
 else

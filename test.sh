@@ -10,4 +10,4 @@ cd "$(dirname "$0")"
 scripts/install_packages.sh
 echo "building"
 scripts/build.sh
-ctest --test-dir build --output-on-failure --progress -j "$(nproc)" | grep -vE '^\s*$|^Test project' | tail -n 200
+ctest --test-dir build --no-tests=error --output-on-failure --progress -j "$(nproc)" | grep -vE '^\s*$|^Test project' | tail -n 200

@@ -13,7 +13,7 @@ quiet() {
 }
 generator=()
 [ -e build/CMakeCache.txt ] || generator=(-G Ninja)
-quiet cmake -S . -B build "${generator[@]}" -DCMAKE_BUILD_TYPE=Release
+quiet cmake -S . -B build "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DPETAL_WERROR=ON
 if [ $# -eq 0 ]; then
     quiet cmake --build build
 else

@@ -7,12 +7,16 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/build.sh petal_runtime
-rm -f docs/stages/*.md
+unset PETAL_PLUGIN_PATH  # only petal's own stages
+pages=$(mktemp -d)
+trap 'rm -rf "$pages"' EXIT
+build/bin/petal stages >"$pages/types"
+build/bin/petal stages --markdown >"$pages/table"
+mkdir "$pages/stages"
+while read -r type _; do
+    build/bin/petal stages "$type" --markdown >"$pages/stages/$type.md"
+done <"$pages/types"
 mkdir -p docs/stages
-for type in $(build/bin/petal stages | cut -d' ' -f1); do
-    build/bin/petal stages "$type" --markdown >"docs/stages/$type.md"
-done
-table=$(mktemp)
-trap 'rm -f "$table"' EXIT
-build/bin/petal stages --markdown >"$table"
-sed -i -e '/<!-- stages:begin -->/,/<!-- stages:end -->/{//!d}' -e "/<!-- stages:begin -->/r $table" README.md
+rm -f docs/stages/*.md
+cp "$pages"/stages/*.md docs/stages/
+sed -i -e '/<!-- stages:begin -->/,/<!-- stages:end -->/{//!d}' -e "/<!-- stages:begin -->/r $pages/table" README.md

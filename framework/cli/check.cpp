@@ -20,7 +20,8 @@ void add_check(CLI::App& app, const GlobalOptions& global, Action& action) {
             if (!debug_ids_known(options->debug, *pipeline)) return static_cast<int>(kWrongUsage);
             if (!global.quiet)
                 std::cout << options->pipeline.string() << ": " << pipeline->stages.size()
-                          << " stages, no problem found\n";
+                          << (pipeline->stages.size() == 1 ? " stage" : " stages")
+                          << ", no problem found\n";
             return static_cast<int>(kDone);
         };
     });

@@ -25,7 +25,8 @@ void PipelineOptions::add_to(CLI::App& command) {
         ->allow_extra_args(false);
     command.add_option("--data", data, "folder that ${data} stands for");
     command.add_option("--out", out, "run folder (default: runs/<pipeline>-<UTC time>)");
-    command.add_option("--seed", seed, "seed of all randomness (default: the pipeline's)");
+    command.add_option("--seed", seed, "seed of all randomness (default: the pipeline's)")
+        ->check(CLI::NonNegativeNumber);
     command.add_option("--threads", threads, "threads (default: as many as cores)")
         ->check(CLI::Range(1, 1024));
     command.add_option("--debug", debug, "stage id, or all: keep its debug files; repeatable")

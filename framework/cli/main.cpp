@@ -16,6 +16,9 @@ int main(int argc, char** argv) {
         "rawlogs");
     app.set_version_flag("--version", std::string("petal ") + petal::version());
     app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 done, 1 failed, 2 wrong pipeline or usage, 3 plugin trouble, 4 weak or not "
+        "usable, 130 cancelled");
     app.fallthrough();
 
     GlobalOptions global;
@@ -37,7 +40,11 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? kDone : kWrongUsage;
     }
     try {
-        return action();
+        const int code = action();
+        std::cout.flush();
+        if (!std::cout)
+            throw petal::Error("cannot write to the standard output; is the disk full?");
+        return code;
     } catch (const petal::UsageError& failure) {
         std::cerr << "petal: " << failure.what() << "\n";
         return kWrongUsage;

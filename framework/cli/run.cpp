@@ -20,8 +20,10 @@ namespace {
 std::atomic<bool> cancel_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "written from a signal handler");
 
-extern "C" void on_signal(int) {
+/// The first signal asks the run to end; a second one ends the program at once.
+extern "C" void on_signal(int number) {
     cancel_requested.store(true);
+    std::signal(number, SIG_DFL);
 }
 
 int thread_count(int asked) {
@@ -31,23 +33,22 @@ int thread_count(int asked) {
 
 /// What the user reads at the end of a run.
 void print_summary(const RunReport& report, const std::filesystem::path& folder) {
-    for (const std::string& error : report.errors) std::cerr << "error: " << error << "\n";
-    if (report.status == RunStatus::done && !report.verdicts.empty()) {
-        std::cout << "verdict: " << to_string(report.level()) << "\n";
+    if (report.status == RunStatus::cancelled) std::cout << "cancelled\n";
+    if (const auto level = report.level()) {
+        std::cout << "verdict: " << to_string(*level) << "\n";
         for (const ToldVerdict& verdict : report.verdicts)
             for (const std::string& reason : verdict.reasons) std::cout << "  - " << reason << "\n";
     }
-    std::error_code ignored;
-    const std::filesystem::path result = folder / "result.json";
-    if (report.status == RunStatus::done && std::filesystem::exists(result, ignored))
-        std::cout << "result: " << result.string() << "\n";
+    if (report.status == RunStatus::done)
+        for (const auto& product : report.products)
+            std::cout << "product: " << (folder / product).string() << "\n";
     std::cout << "run folder: " << folder.string() << "\n";
 }
 
 int exit_code(const RunReport& report) {
     if (report.status == RunStatus::cancelled) return kCancelled;
     if (report.status == RunStatus::failed) return kRunFailed;
-    return report.level() == Level::usable ? kDone : kNotUsable;
+    return report.level().value_or(Level::usable) == Level::usable ? kDone : kNotUsable;
 }
 
 int run(const PipelineOptions& options, const GlobalOptions& global) {
@@ -71,15 +72,16 @@ int run(const PipelineOptions& options, const GlobalOptions& global) {
     RunSettings settings;
     settings.threads = thread_count(options.threads);
     settings.debug.insert(options.debug.begin(), options.debug.end());
-    settings.folder = prepare_run_folder(*request.out, options.force, request.data.value_or(""));
+    settings.folder = prepare_run_folder(*request.out, options.force,
+                                         RunInputs{request.data.value_or(""), request.file});
+    settings.thread_limits = plugins.thread_limits;
     settings.cancel = &cancel_requested;
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
-    for (const auto& limit : plugins.thread_limits) limit(settings.threads);
 
     RunLog log(settings.folder, global.verbosity());
     const RunReport report = run_pipeline(*pipeline, settings, log);
-    for (const std::string& error : report.errors) log.write(LogLevel::debug, "error: " + error);
+    for (const std::string& error : report.errors) log.error(error);
     log.close();
     PendingFile run_json(settings.folder / "run.json");
     write_file(run_json.path(), to_json(report, *pipeline));

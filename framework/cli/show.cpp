@@ -57,7 +57,7 @@ void add_show(CLI::App& app, const GlobalOptions& global, Action& action) {
             if (options->dot) {
                 std::cout << to_dot(*pipeline);
             } else if (options->json) {
-                std::cout << pipeline->effective_json << "\n";
+                std::cout << pipeline->effective_json;
             } else {
                 print_text(*pipeline);
             }

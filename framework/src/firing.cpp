@@ -33,11 +33,16 @@ std::string as_folder(const FrameInfo& frame) {
     return name;
 }
 
-fs::path inside(const fs::path& folder, const fs::path& name) {
-    const fs::path relative = name.lexically_normal();
-    if (relative.empty() || relative.is_absolute() || *relative.begin() == "..")
-        throw Error("'" + name.string() + "' leads out of the run folder; give a name inside it");
-    return folder / relative;
+/// `name` relative to the folder; an absolute one (as ${out} gives) must lie below it.
+fs::path relative_inside(const fs::path& folder, const fs::path& name) {
+    const fs::path relative = name.is_absolute()
+                                  ? name.lexically_normal().lexically_relative(folder)
+                                  : name.lexically_normal();
+    if (relative.empty() || *relative.begin() == ".." || *relative.begin() == "." ||
+        !relative.has_filename())
+        throw Error("'" + name.string() +
+                    "' leads out of the run folder or names no file; give a name inside it");
+    return relative;
 }
 
 void write_whole(const fs::path& path, const std::function<void(const fs::path&)>& writer) {
@@ -94,6 +99,12 @@ std::map<std::string, AnyPacket> Firing::take_outputs() {
     return std::move(outputs_);
 }
 
+void Firing::expect_no_outputs() const {
+    if (!outputs_.empty())
+        throw Error("the stage wrote port '" + outputs_.begin()->first +
+                    "' in finish(), where nobody can read it; only stages that gather write there");
+}
+
 void Firing::set_frame(std::string name, double stamp) {
     if (!spec_.is_source()) throw Error("set_frame() is for sources: this stage has inputs");
     frame_.name = std::move(name);
@@ -133,15 +144,17 @@ void Firing::verdict(Level level, const std::vector<std::string>& reasons) {
 
 void Firing::save(const std::string& name, const std::function<void(const fs::path&)>& writer) {
     const fs::path folder = services_.folder() / "stages" / id_ / as_folder(frame_);
-    write_whole(inside(folder, name), writer);
+    write_whole(folder / relative_inside(folder, name), writer);
 }
 
 void Firing::output(const std::string& name, const std::function<void(const fs::path&)>& writer) {
-    write_whole(inside(services_.folder(), name), writer);
+    write_whole(output_path(name), writer);
 }
 
-fs::path Firing::output_path(const fs::path& name) const {
-    return inside(services_.folder(), name);
+fs::path Firing::output_path(const fs::path& name) {
+    const fs::path relative = relative_inside(services_.folder(), name);
+    services_.claim_product(id_, relative);
+    return services_.folder() / relative;
 }
 
 const char* to_string(Level level) {

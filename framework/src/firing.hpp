@@ -27,6 +27,9 @@ class RunServices {
     virtual void verdict(const std::string& stage, Level level,
                          const std::vector<std::string>& reasons) = 0;
     virtual void used_file(const std::filesystem::path& path) = 0;
+    /// A stage is about to write the product `name`, relative to the folder.
+    /// \throws Error when the name is the run's own, or was claimed before.
+    virtual void claim_product(const std::string& stage, const std::filesystem::path& name) = 0;
     virtual bool debug(const std::string& stage) const = 0;
     virtual bool cancelled() const = 0;
     virtual int threads() const = 0;
@@ -64,13 +67,16 @@ class Firing final : public Run {
               const std::function<void(const std::filesystem::path&)>& writer) override;
     void output(const std::string& name,
                 const std::function<void(const std::filesystem::path&)>& writer) override;
-    std::filesystem::path output_path(const std::filesystem::path& name) const override;
+    std::filesystem::path output_path(const std::filesystem::path& name) override;
 
     /// True once a source said that there are no more frames.
     bool ended() const { return ended_; }
     /// What was written, by port. \throws Error unless every output port was written (none, where a
     /// source ended).
     std::map<std::string, AnyPacket> take_outputs();
+    /// \throws Error when something was written: finish() of a stage that does not gather has no
+    /// ports.
+    void expect_no_outputs() const;
 
    protected:
     AnyPacket input(std::string_view port) const override;

@@ -113,6 +113,10 @@ std::vector<Candidate> find_candidates(const std::vector<fs::path>& folders,
                 continue;
             }
             if (fs::is_directory(library, broken) || !known.insert(library).second) continue;
+            if (!fs::is_regular_file(library, broken)) {  // reading a pipe would wait for ever
+                refused.push_back({file, "is no regular file"});
+                continue;
+            }
             candidates.push_back({library, i});
         }
     }

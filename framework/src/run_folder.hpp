@@ -8,14 +8,24 @@
 
 namespace petal {
 
-/// runs/<pipeline>-<UTC time>, below the working folder: where a run without --out writes.
+/// runs/<pipeline>-<UTC time> below the working folder, with -2, -3 ... where that exists: where a
+/// run without
+/// --out writes.
 std::filesystem::path default_run_folder(const std::string& pipeline);
 
-/// Makes an output folder ready for a run: absolute, made where missing, writable.
-/// An existing one that holds a run is refused, or with `force` emptied of that run's files.
-/// \throws Error naming the folder: it holds a run; it cannot be written to; it is a file; it is
-/// `data`.
+/// What a run reads, and so must not write into.
+struct RunInputs {
+    std::filesystem::path data;      ///< --data; may be empty
+    std::filesystem::path pipeline;  ///< the pipeline file
+};
+
+/// Makes an output folder ready for a run and claims it: absolute, made where missing, with a
+/// run.json that says "running", so that no second run takes it and a killed run can be told from a
+/// whole one. An existing one that holds a run is refused, or with `force` emptied of what that run
+/// wrote. \throws UsageError naming the folder: it holds a run, or files like a run's that are
+/// none; it is a file; it lies in the data; it is the pipeline's folder or the working folder.
+/// Error: it cannot be written to.
 std::filesystem::path prepare_run_folder(const std::filesystem::path& out, bool force,
-                                         const std::filesystem::path& data);
+                                         const RunInputs& inputs);
 
 }  // namespace petal

@@ -8,6 +8,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <vector>
 
 #include "petal/output.hpp"
@@ -31,7 +32,7 @@ spdlog::level::level_enum to_spdlog(LogLevel level) {
 spdlog::level::level_enum terminal_level(Verbosity verbosity) {
     switch (verbosity) {
         case Verbosity::quiet:
-            return spdlog::level::off;
+            return spdlog::level::err;
         case Verbosity::normal:
             return spdlog::level::info;
         case Verbosity::verbose:
@@ -46,6 +47,7 @@ struct RunLog::State {
     explicit State(const std::filesystem::path& folder) : file(folder / "log.txt") {}
     PendingFile file;
     std::unique_ptr<spdlog::logger> logger;
+    std::atomic<bool> incomplete{false};
 };
 
 RunLog::RunLog(const std::filesystem::path& folder, Verbosity verbosity)
@@ -63,6 +65,9 @@ RunLog::RunLog(const std::filesystem::path& folder, Verbosity verbosity)
         state_->logger = std::make_unique<spdlog::logger>(
             "petal", spdlog::sinks_init_list{to_file, to_terminal});
         state_->logger->set_level(spdlog::level::debug);
+        // spdlog itself only prints such failures and goes on.
+        state_->logger->set_error_handler(
+            [state = state_.get()](const std::string&) { state->incomplete = true; });
     } catch (const spdlog::spdlog_ex& failure) {
         throw Error(std::string("cannot write the log: ") + failure.what() +
                     "; give another folder with --out");
@@ -81,10 +86,16 @@ void RunLog::write(LogLevel level, const std::string& message) {
     if (state_->logger) state_->logger->log(to_spdlog(level), message);
 }
 
+void RunLog::error(const std::string& message) {
+    if (state_->logger) state_->logger->log(spdlog::level::err, "error: " + message);
+}
+
 void RunLog::close() {
     if (!state_->logger) return;
     state_->logger->flush();
     state_->logger.reset();
+    if (state_->incomplete)
+        throw Error("cannot write " + state_->file.final_path().string() + "; is the disk full?");
     state_->file.commit();
 }
 

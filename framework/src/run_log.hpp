@@ -25,6 +25,9 @@ class RunLog {
     ~RunLog();
 
     void write(LogLevel level, const std::string& message);
+    /// Why the run failed: to the terminal too, however quiet.
+    void error(const std::string& message);
+    /// \throws Error when the disk did not take it all.
     void close();
 
    private:

@@ -28,30 +28,35 @@ RunNode::Work RunNode::next_work() const {
     if (is_source()) return source_ended_ ? Work::finish : Work::run;
     if (gathers_) return gathered_all() ? Work::finish : Work::none;
 
+    check_lengths();
     bool ready = true;
-    const WireState* ended = nullptr;
-    const std::string* ended_port = nullptr;
-    for (const auto& [port, wires] : wires_) {
-        const WireState& wire = wires.front();
-        if (wire.waiting.count(fired_) == 0) ready = false;
-        if (!wire.ended) continue;
-        if (ended != nullptr && *ended->ended != *wire.ended) {
-            const auto from = [this](const std::string& name) {
-                const Wire& source = definition_.inputs.at(name).front();
-                return source.stage + "." + source.port;
-            };
-            throw Error("wires that meet here ended after different numbers of frames: " +
-                        from(*ended_port) + " after " + std::to_string(*ended->ended) + ", " +
-                        from(port) + " after " + std::to_string(*wire.ended) +
-                        "; frames meet by number, so the sources must emit equally many");
-        }
-        ended = &wire;
-        ended_port = &port;
-    }
+    for (const auto& [port, wires] : wires_)
+        if (wires.front().waiting.count(fired_) == 0) ready = false;
     if (ready) return Work::run;
     for (const auto& [port, wires] : wires_)
         if (!wires.front().ended || *wires.front().ended != fired_) return Work::none;
     return Work::finish;
+}
+
+void RunNode::check_lengths() const {
+    const auto source_of = [this](const std::string& port) {
+        const Wire& wire = definition_.inputs.at(port).front();
+        return wire.stage + "." + wire.port;
+    };
+    for (const auto& [port, wires] : wires_) {
+        const WireState& wire = wires.front();
+        if (!wire.ended) continue;
+        for (const auto& [other_port, other_wires] : wires_) {
+            const WireState& other = other_wires.front();
+            const bool goes_on = other.waiting.lower_bound(*wire.ended) != other.waiting.end() ||
+                                 other.ended.value_or(0) > *wire.ended;
+            if (!goes_on) continue;
+            throw Error(
+                "wires that meet here have different numbers of frames: " + source_of(port) +
+                " ended after " + std::to_string(*wire.ended) + ", " + source_of(other_port) +
+                " goes on; frames meet by number, so the sources must emit equally many");
+        }
+    }
 }
 
 PortPackets RunNode::take_inputs(Work work) {

@@ -40,7 +40,7 @@ class RunNode {
 
     /// What the node can do next.
     enum class Work { none, run, finish };
-    /// \throws Error when wires that meet here ended after different numbers of frames.
+    /// \throws Error when wires that meet here have different numbers of frames.
     Work next_work() const;
     /// The packets of the next firing, taken out of what waits.
     PortPackets take_inputs(Work work);
@@ -67,6 +67,9 @@ class RunNode {
     };
 
     bool gathered_all() const;
+    /// \throws Error when one wire ended and another holds, or ended after, more frames. As early
+    /// as that is known: a longer source would wait for ever for the frames of the shorter one.
+    void check_lengths() const;
 
     const StageNode& definition_;
     std::unique_ptr<Stage> stage_;

@@ -30,6 +30,18 @@ void RunRecorder::used_file(const std::filesystem::path& path) {
     used_files_.insert(path.lexically_normal());
 }
 
+void RunRecorder::claim_product(const std::string& stage, const std::filesystem::path& name) {
+    const std::string first = name.begin()->string();
+    if (first == "run.json" || first == "log.txt" || first == "stages" || first[0] == '.')
+        throw Error("'" + name.string() +
+                    "' is the run's own name; choose another for the product");
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto [taken, is_new] = products_.emplace(name, stage);
+    if (!is_new)
+        throw Error("'" + name.string() + "' is written by stage '" + taken->second +
+                    "' already; give each product a name of its own");
+}
+
 bool RunRecorder::debug(const std::string& stage) const {
     return settings_.debug.count("all") > 0 || settings_.debug.count(stage) > 0;
 }
@@ -50,6 +62,7 @@ void RunRecorder::fill(RunReport& report, const Pipeline& pipeline) {
         [&](const ToldVerdict& a, const ToldVerdict& b) { return rank[a.stage] < rank[b.stage]; });
     report.notes = std::move(notes_);
     report.verdicts = std::move(verdicts_);
+    for (const auto& [name, stage] : products_) report.products.push_back(name);
     report.used_files.assign(used_files_.begin(), used_files_.end());
 }
 

@@ -28,6 +28,7 @@ class RunRecorder final : public RunServices {
     void verdict(const std::string& stage, Level level,
                  const std::vector<std::string>& reasons) override;
     void used_file(const std::filesystem::path& path) override;
+    void claim_product(const std::string& stage, const std::filesystem::path& name) override;
     bool debug(const std::string& stage) const override;
     bool cancelled() const override;
     int threads() const override { return settings_.threads; }
@@ -45,6 +46,7 @@ class RunRecorder final : public RunServices {
     std::vector<ToldNote> notes_;
     std::vector<ToldVerdict> verdicts_;
     std::set<std::filesystem::path> used_files_;
+    std::map<std::filesystem::path, std::string> products_;  ///< whose each is
 };
 
 }  // namespace petal

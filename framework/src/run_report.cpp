@@ -47,6 +47,14 @@ Json notes_json(const std::vector<ToldNote>& notes) {
     return list;
 }
 
+Json data_json(const std::filesystem::path& file) {
+    try {
+        return {{"file", file.string()}, {"sha256", sha256_of(file)}};
+    } catch (const Error& error) {
+        return {{"file", file.string()}, {"sha256", nullptr}, {"error", error.what()}};
+    }
+}
+
 /// The plugins whose stages the pipeline uses.
 Json plugins_json(const Pipeline& pipeline) {
     std::set<std::pair<std::string, std::string>> used;
@@ -64,9 +72,11 @@ const char* version() {
     return PETAL_VERSION;
 }
 
-Level RunReport::level() const {
-    Level worst = Level::usable;
-    for (const ToldVerdict& verdict : verdicts) worst = std::max(worst, verdict.level);
+std::optional<Level> RunReport::level() const {
+    if (status != RunStatus::done) return std::nullopt;
+    std::optional<Level> worst;
+    for (const ToldVerdict& verdict : verdicts)
+        worst = std::max(worst.value_or(Level::usable), verdict.level);
     return worst;
 }
 
@@ -114,8 +124,9 @@ std::string to_json(const RunReport& report, const Pipeline& pipeline) {
                             {"level", petal::to_string(told.level)},
                             {"reasons", told.reasons}});
     Json data = Json::array();
-    for (const auto& file : report.used_files)
-        data.push_back({{"file", file.string()}, {"sha256", sha256_of(file)}});
+    for (const auto& file : report.used_files) data.push_back(data_json(file));
+    Json products = Json::array();
+    for (const auto& product : report.products) products.push_back(product.string());
     Json stages = Json::object();
     for (const StageNode& node : pipeline.stages) {
         const auto found = report.stages.find(node.id);
@@ -126,7 +137,7 @@ std::string to_json(const RunReport& report, const Pipeline& pipeline) {
     }
     Json root{{"petal_run", 1},
               {"status", to_string(report.status)},
-              {"verdict", petal::to_string(report.level())},
+              {"verdict", report.level() ? Json(petal::to_string(*report.level())) : Json()},
               {"verdicts", std::move(verdicts)},
               {"errors", report.errors},
               {"notes", notes_json(report.notes)},
@@ -135,6 +146,7 @@ std::string to_json(const RunReport& report, const Pipeline& pipeline) {
               {"frames", report.frames},
               {"versions", {{"petal", version()}, {"plugins", plugins_json(pipeline)}}},
               {"data", std::move(data)},
+              {"products", std::move(products)},
               {"wall_s", report.wall_s},
               {"cpu_s", report.cpu_s},
               {"peak_memory_bytes", report.peak_memory_bytes},

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,20 +47,22 @@ struct RunReport {
     std::vector<ToldVerdict> verdicts;
     std::map<std::string, StageStatistics> stages;
     std::vector<std::filesystem::path> used_files;  ///< sorted, unique
+    std::vector<std::filesystem::path> products;    ///< relative to the run folder, sorted
     std::uint64_t frames = 0;
     int threads = 1;
     double wall_s = 0.0;
     double cpu_s = 0.0;
     std::uint64_t peak_memory_bytes = 0;
 
-    /// The worst level told; usable where no stage judges.
-    Level level() const;
+    /// The worst level told. None where no stage judged, or the run did not come to its end.
+    std::optional<Level> level() const;
 };
 
 /// One line for a note: what was looked for, the nearest miss, the threshold, the hint.
 std::string to_string(const Note& note);
 
-/// run.json. Checksums (SHA-256) of the used files are computed here.
+/// run.json. Checksums (SHA-256) of the used files are computed here; a file that cannot be read
+/// any more has null and the reason.
 std::string to_json(const RunReport& report, const Pipeline& pipeline);
 
 /// SHA-256 of a file in hexadecimal. \throws Error naming the file.

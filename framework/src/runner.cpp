@@ -12,9 +12,12 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
+#include "plain_message.hpp"
 #include "run_node.hpp"
 #include "run_recorder.hpp"
 
@@ -59,6 +62,8 @@ class Scheduler {
                     by_id.at(wires[i].stage)
                         ->consumers()[wires[i].port]
                         .push_back({&node, port, i});
+        for (RunNode& node : nodes_)
+            if (node.is_source()) find_followers(node);
     }
 
     void run(int threads) {
@@ -78,6 +83,10 @@ class Scheduler {
             report.stages[node.definition().id] = node.statistics();
             if (node.is_source()) report.frames = std::max(report.frames, node.fired());
         }
+        if (failures_.empty() && !cancelled_)
+            for (const RunNode& node : nodes_)
+                if (!node.has_finished())
+                    fail(node.definition(), "", "did not come to its end: a fault of the runner");
         report.status = !failures_.empty() ? RunStatus::failed
                         : cancelled_       ? RunStatus::cancelled
                                            : RunStatus::done;
@@ -91,12 +100,26 @@ class Scheduler {
                             (where.empty() ? "" : ", " + where) + ": " + what);
     }
 
-    /// A source waits while the slowest stage below it is too many frames behind.
+    /// The stages that a source feeds frame by frame, directly or through others.
+    void find_followers(RunNode& source) {
+        std::vector<RunNode*> open{&source};
+        std::set<const RunNode*>& followers = followers_[&source];
+        while (!open.empty()) {
+            RunNode* node = open.back();
+            open.pop_back();
+            for (const auto& [port, consumers] : node->consumers())
+                for (const RunNode::Consumer& consumer : consumers)
+                    if (!consumer.node->gathers() && followers.insert(consumer.node).second)
+                        open.push_back(consumer.node);
+        }
+    }
+
+    /// A source waits while the slowest stage that it feeds is too many frames behind. Stages of
+    /// other sources do not count: they may have fewer frames.
     bool may_emit(const RunNode& source) const {
         std::uint64_t slowest = source.fired();
-        for (const RunNode& node : nodes_)
-            if (!node.is_source() && !node.gathers() && !node.definition().once)
-                slowest = std::min(slowest, node.fired());
+        for (const RunNode* node : followers_.at(&source))
+            slowest = std::min(slowest, node->fired());
         return source.fired() - slowest < frames_in_flight_;
     }
 
@@ -138,11 +161,15 @@ class Scheduler {
             } else {
                 node.stage().finish(firing);
             }
-            if (work == RunNode::Work::run || node.gathers()) outputs = firing.take_outputs();
+            if (work == RunNode::Work::run || node.gathers()) {
+                outputs = firing.take_outputs();
+            } else {
+                firing.expect_no_outputs();
+            }
         } catch (const Cancelled&) {
             stopped = true;
         } catch (const std::exception& thrown) {
-            failure = thrown.what();
+            failure = plain_message(thrown.what());
         } catch (...) {
             failure = "threw something that is no std::exception";
         }
@@ -174,7 +201,7 @@ class Scheduler {
     void done(RunNode& node, RunNode::Work work, bool source_ended,
               std::map<std::string, AnyPacket> outputs) {
         StageStatistics& statistics = node.statistics();
-        ++statistics.firings;
+        if (node.gathers() || (work == RunNode::Work::run && !source_ended)) ++statistics.firings;
         for (auto& [port, packet] : outputs) {
             ++statistics.packets;
             statistics.bytes += packet.bytes;
@@ -205,6 +232,7 @@ class Scheduler {
     std::deque<RunNode> nodes_;  // in topological order; a deque keeps their addresses
     std::mutex mutex_;
     tbb::task_group tasks_;
+    std::map<const RunNode*, std::set<const RunNode*>> followers_;  // of each source
     std::vector<std::string> failures_;
     bool cancelled_ = false;
 };
@@ -217,6 +245,8 @@ RunReport run_pipeline(const Pipeline& pipeline, const RunSettings& settings, Ru
     // Caps whatever uses oneTBB inside a stage too.
     const tbb::global_control cap(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(settings.threads));
+    // After the cap: a pool told first would warn about it.
+    for (const auto& limit : settings.thread_limits) limit(settings.threads);
     RunRecorder recorder(settings, pipeline.seed, log);
     RunReport report;
     report.threads = settings.threads;

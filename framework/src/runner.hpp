@@ -6,8 +6,10 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "pipeline.hpp"
 #include "run_log.hpp"
@@ -16,9 +18,11 @@
 namespace petal {
 
 struct RunSettings {
-    int threads = 1;                            ///< at least 1
-    std::set<std::string> debug;                ///< stage ids; "all" means every one
-    std::filesystem::path folder;               ///< prepared with prepare_run_folder()
+    int threads = 1;               ///< at least 1
+    std::set<std::string> debug;   ///< stage ids; "all" means every one
+    std::filesystem::path folder;  ///< prepared with prepare_run_folder()
+    /// Told the number of threads before the first stage fires (PluginSet::thread_limits).
+    std::vector<std::function<void(int)>> thread_limits;
     const std::atomic<bool>* cancel = nullptr;  ///< set from a signal handler; may be null
 };
 

@@ -65,7 +65,8 @@ TEST_F(Pairs, MissingDataAreNamed) {
     const Ended no_folder = petal(run + "nowhere");
     EXPECT_EQ(no_folder.exit_code, 2);
     EXPECT_THAT(no_folder.err, HasSubstr("--data nowhere is no folder"));
-    const Ended no_file = petal(run + ".");
+    fs::create_directory(folder_ / "empty");
+    const Ended no_file = petal(run + "empty");
     EXPECT_EQ(no_file.exit_code, 1);
     EXPECT_THAT(no_file.err, HasSubstr("intrinsics.yaml does not exist"));
 }

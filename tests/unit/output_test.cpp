@@ -97,22 +97,48 @@ TEST_F(OutputTest, ARunFolderThatHoldsARunIsRefusedUnlessForced) {
     const fs::path out = folder_ / "out";
     const fs::path made = prepare_run_folder(out, false, {});
     EXPECT_EQ(made, fs::canonical(out));
-    write_file(out / "run.json", "{}");
+    EXPECT_THAT(content(out / "run.json"), HasSubstr("running"));
+    write_file(out / "run.json", R"({"petal_run": 1, "products": ["result.json", "../out.txt"]})");
     write_file(out / "result.json", "{}");
+    write_file(out / ".scene.part.rawlog", "left by a run that was killed");
+    write_file(folder_ / "out.txt", "not the run's");
     write_file(out / "mine.txt", "kept");
     EXPECT_THAT(error_of([&] { prepare_run_folder(out, false, {}); }), HasSubstr("--force"));
     prepare_run_folder(out, true, {});
-    EXPECT_FALSE(fs::exists(out / "run.json"));
+    EXPECT_THAT(content(out / "run.json"), HasSubstr("running"));
+    EXPECT_FALSE(fs::exists(out / ".scene.part.rawlog"));
+    EXPECT_TRUE(fs::exists(folder_ / "out.txt"));
     EXPECT_FALSE(fs::exists(out / "result.json"));
     EXPECT_TRUE(fs::exists(out / "mine.txt")) << "only the run's own files go";
 }
 
-TEST_F(OutputTest, ARunFolderIsNeitherAFileNorTheData) {
+TEST_F(OutputTest, WhatPetalDidNotWriteIsNeverReplaced) {
+    const fs::path out = folder_ / "out";
+    fs::create_directories(out / "stages");
+    write_file(out / "stages" / "precious", "x");
+    EXPECT_THAT(error_of([&] { prepare_run_folder(out, true, {}); }), HasSubstr("no run.json"));
+    write_file(out / "run.json", R"({"mine": 1})");
+    EXPECT_THAT(error_of([&] { prepare_run_folder(out, true, {}); }),
+                HasSubstr("petal did not write"));
+    EXPECT_TRUE(fs::exists(out / "stages" / "precious"));
+}
+
+TEST_F(OutputTest, ARunFolderIsNeitherAFileNorInTheDataNorThePipelines) {
     write_file(folder_ / "file", "x");
     EXPECT_THAT(error_of([&] { prepare_run_folder(folder_ / "file", false, {}); }),
                 HasSubstr("is a file"));
-    EXPECT_THAT(error_of([&] { prepare_run_folder(folder_, false, folder_); }),
-                HasSubstr("is the data folder"));
+    fs::create_directories(folder_ / "data");
+    for (const fs::path& inside : {folder_ / "data", folder_ / "data" / "run"})
+        EXPECT_THAT(error_of([&] {
+                        prepare_run_folder(inside, false, {folder_ / "data", ""});
+                    }),
+                    HasSubstr("lies in the data folder"));
+    EXPECT_THAT(error_of([&] {
+                    prepare_run_folder(folder_, false, {"", folder_ / "p.json"});
+                }),
+                HasSubstr("is the pipeline's folder"));
+    EXPECT_THAT(error_of([&] { prepare_run_folder(fs::current_path(), true, {}); }),
+                HasSubstr("is the working folder"));
 }
 
 }  // namespace

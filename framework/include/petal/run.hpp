@@ -78,6 +78,8 @@ class Run {
     /// Publishes a value that is shared already (an input passed on): no copy.
     template <class T>
     void forward(std::string_view port, std::shared_ptr<const T> value) {
+        if (!value)
+            throw Error("forward() on port '" + std::string(port) + "' was given no packet");
         const std::size_t bytes = PacketTraits<T>::bytes(*value);
         publish(port, AnyPacket{std::move(value), PacketTraits<T>::name, bytes, frame()});
     }
@@ -121,8 +123,10 @@ class Run {
     virtual void output(const std::string& name,
                         const std::function<void(const std::filesystem::path&)>& writer) = 0;
     /// Where a product of that name will lie, for a stage that streams into it with a PendingFile.
-    /// \throws Error when `name` leads out of the run folder.
-    virtual std::filesystem::path output_path(const std::filesystem::path& name) const = 0;
+    /// The name is the stage's from then on: ask once a product. \throws Error when `name` leads
+    /// out of the run folder, is one of the run's own (run.json, log.txt, stages), or was taken
+    /// before.
+    virtual std::filesystem::path output_path(const std::filesystem::path& name) = 0;
 
    protected:
     virtual AnyPacket input(std::string_view port) const = 0;

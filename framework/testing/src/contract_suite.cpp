@@ -111,7 +111,7 @@ class Suite {
             if (found == inputs_.packets.end()) continue;
             for (const auto& [name, make] : found->second) names.insert(name);
         }
-        if (spec_.is_source()) names.insert("empty");
+        names.insert("empty");
         return names;
     }
 
@@ -165,6 +165,9 @@ class Suite {
         } catch (const std::exception& error) {
             outcome.end = Outcome::End::broke;
             outcome.message = std::string("threw what is no petal::Error: ") + error.what();
+        } catch (...) {
+            outcome.end = Outcome::End::broke;
+            outcome.message = "threw what is no std::exception";
         }
         return outcome;
     }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -47,6 +48,11 @@ struct StageHarness::State : RunServices {
         const std::lock_guard<std::mutex> lock(mutex);
         used_files.push_back(path);
     }
+    void claim_product(const std::string&, const fs::path& name) override {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!products.insert(name).second)
+            throw Error("'" + name.string() + "' was written already");
+    }
     bool debug(const std::string&) const override { return debug_on; }
     bool cancelled() const override { return is_cancelled; }
     int threads() const override { return thread_count; }
@@ -77,6 +83,7 @@ struct StageHarness::State : RunServices {
     std::vector<std::string> logs;
     std::vector<std::string> reasons;
     std::vector<fs::path> used_files;
+    std::set<fs::path> products;
     std::optional<Level> told_level;
 
     void keep(std::map<std::string, AnyPacket> outputs) {
@@ -159,6 +166,7 @@ void StageHarness::fire() {
     state_->logs.clear();
     state_->reasons.clear();
     state_->used_files.clear();
+    state_->products.clear();
     state_->told_level.reset();
     const auto params = state_->params();
     const std::unique_ptr<Stage> stage = state_->spec.make_stage(params.get());
@@ -173,6 +181,7 @@ void StageHarness::fire() {
     }
     Firing last(state_->spec, state_->id, FrameInfo{}, {}, *state_);
     stage->finish(last);
+    last.expect_no_outputs();
 }
 
 std::uint64_t StageHarness::given(const std::string& port) const {
