@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "petal/calibration/camera_model.hpp"
+#include "petal/calibration/file_name.hpp"
 #include "petal/error.hpp"
 
 namespace petal {
@@ -51,16 +52,6 @@ CameraModel model_of(const CameraImage& camera) {
     } catch (const Error& error) {
         throw Error("camera '" + camera.label + "': " + error.what());
     }
-}
-
-/// Labels are free text; file names are not.
-std::string file_name(const std::string& start, std::string label, const std::string& end) {
-    for (char& c : label) {
-        const bool plain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        if (!plain && c != '-') c = '_';
-    }
-    return start + label + end;
 }
 
 std::string short_number(double value) {
@@ -223,10 +214,10 @@ void ImageContours::tell(Run& run, const std::string& camera, const ImageSearchP
                                     " boards from " + squares);
     }
     if (!picture.boards.empty() && !run.debug()) return;
-    run.save(file_name("squares_", camera, ".png"),
+    run.save("squares_" + file_name(camera) + ".png",
              [&picture](const std::filesystem::path& file) { write_overlay(picture, file); });
     for (std::size_t i = 0; i < picture.boards.size(); ++i)
-        run.save(file_name("board_", camera, "_" + std::to_string(i) + ".png"),
+        run.save("board_" + file_name(camera) + "_" + std::to_string(i) + ".png",
                  [&picture, i](const std::filesystem::path& file) {
                      write_board_crop(picture, i, file);
                  });

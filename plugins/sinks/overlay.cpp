@@ -5,6 +5,7 @@
 
 #include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <string>
 
 #include "overlay_canvas.hpp"
@@ -13,6 +14,7 @@
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
+#include "petal/calibration/file_name.hpp"
 #include "petal/calibration/images.hpp"
 
 namespace petal {
@@ -54,6 +56,16 @@ const CameraExtrinsics* extrinsics_of(const Extrinsics& extrinsics, const std::s
     return nullptr;
 }
 
+/// The picture's name, which no other of the run has: scenes may share a name, and "a_b" with "c"
+/// reads as "a" with "b_c".
+std::string picture_name(const std::string& scene, const std::string& camera,
+                         std::set<std::string>& taken) {
+    const std::string stem = file_name(scene) + "_" + file_name(camera);
+    std::string name = stem;
+    for (int n = 2; !taken.insert(name).second; ++n) name = stem + "_" + std::to_string(n);
+    return name + ".png";
+}
+
 void draw_camera(OverlayCanvas& canvas, const SceneView& scene, const CameraImage& image,
                  const CameraExtrinsics* solved, const OverlayParams& params) {
     if (solved != nullptr && scene.cloud)
@@ -78,7 +90,9 @@ void Overlay::describe(Spec<Params>& s) {
         "Draws detected corners, projected LiDAR points and corners, and enlarged residuals on the "
         "photo.");
     s.doc(
-        "One picture a scene and camera, `stages/<id>/<scene>_<camera>.png`: detected corners as "
+        "One picture a scene and camera, `stages/<id>/<scene>_<camera>.png` (what is no letter, "
+        "digit, `-`, `_` or `.` is written as `%` and two hexadecimal digits; a name that is taken "
+        "gets `_2`, `_3`, ...): detected corners as "
         "green crosses, "
         "LiDAR points coloured by their distance (near red, far blue), projected LiDAR corners as "
         "red "
@@ -108,6 +122,7 @@ void Overlay::describe(Spec<Params>& s) {
 
 void Overlay::finish(Run& run) {
     const Extrinsics& extrinsics = run.in<Extrinsics>("extrinsics");
+    std::set<std::string> taken;
     for (const auto& [number, scene] : scenes_of(run)) {
         run.check_cancelled();
         if (!scene.images) continue;
@@ -121,7 +136,7 @@ void Overlay::finish(Run& run) {
                 canvas.draw_caption(std::string(to_string(extrinsics.level)) + "; residuals x" +
                                     std::to_string(static_cast<int>(params_.residual_scale)));
             }
-            run.save(scene.name + "_" + image.label + ".png",
+            run.save(picture_name(scene.name, image.label, taken),
                      [&](const std::filesystem::path& path) {
                          if (!cv::imwrite(path.string(), canvas.picture()))
                              throw Error("cannot write the overlay " + path.string() +

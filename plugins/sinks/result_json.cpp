@@ -154,10 +154,12 @@ struct SceneBoards {
         std::set<int> image_used;
         if (correspondences != nullptr)
             for (const CameraPairs& camera : correspondences->cameras)
-                for (std::size_t b = 0; b < camera.boards.size(); ++b) {
-                    lidar_used.insert(camera.boards[b].lidar);
-                    image_used.insert(camera.boards[b].image);
-                    boards.push_back(matched(camera, static_cast<int>(b)));
+                for (const int b : boards_of(camera)) {
+                    if (static_cast<std::size_t>(b) < camera.boards.size()) {
+                        lidar_used.insert(camera.boards[static_cast<std::size_t>(b)].lidar);
+                        image_used.insert(camera.boards[static_cast<std::size_t>(b)].image);
+                    }
+                    boards.push_back(matched(camera, b));
                 }
         if (lidar != nullptr)
             for (std::size_t i = 0; i < lidar->boards.size(); ++i)
@@ -173,6 +175,14 @@ struct SceneBoards {
     }
 
    private:
+    /// The boards that the pairs name; given pairs have them without a detector's board behind
+    /// each.
+    static std::set<int> boards_of(const CameraPairs& camera) {
+        std::set<int> boards;
+        for (const PointPair& pair : camera.pairs)
+            if (pair.board >= 0) boards.insert(pair.board);
+        return boards;
+    }
     Json matched(const CameraPairs& camera, int board) const {
         std::map<int, const PointPair*> by_corner;
         for (const PointPair& pair : camera.pairs)
@@ -183,10 +193,12 @@ struct SceneBoards {
             in_lidar.push_back(pair->lidar);
             in_image.push_back(pair->image);
         }
-        return board_json(target_of(camera.boards[static_cast<std::size_t>(board)]), camera.camera,
+        return board_json(target_of(camera, static_cast<std::size_t>(board)), camera.camera,
                           points_json(in_lidar), points_json(in_image));
     }
-    std::string target_of(const CameraPairs::BoardPair& pair) const {
+    std::string target_of(const CameraPairs& camera, std::size_t board) const {
+        if (board >= camera.boards.size()) return {};
+        const CameraPairs::BoardPair& pair = camera.boards[board];
         if (image != nullptr && pair.image >= 0 &&
             static_cast<std::size_t>(pair.image) < image->boards.size())
             return image->boards[static_cast<std::size_t>(pair.image)].target;

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
 #include "solvers/solve_input.hpp"
+#include "solvers/verdict.hpp"
 
 namespace petal {
 namespace {
@@ -117,6 +119,11 @@ See docs/matching.md for what was measured.)");
         .doc(
             "project with the camera's distortion; off where the pixels are rectified (the "
             "letter)");
+    s.param("max_image_boards", &Params::max_image_boards)
+        .within(1, 100)
+        .doc(
+            "of more boards in one image only the largest are tried; the time grows with the "
+            "square");
     s.param("lidar_sigma", &Params::lidar_sigma)
         .unit("m")
         .within(0.0, 1.0)
@@ -135,6 +142,38 @@ void BoardMatcher::run(Run& run) {
     run.write("correspondences", std::move(correspondences));
 }
 
+void BoardMatcher::keep_largest(Run& run, const std::string& camera,
+                                std::vector<const ImageBoard*>& seen,
+                                std::vector<int>& index) const {
+    const auto most = static_cast<std::size_t>(p_.max_image_boards);
+    if (seen.size() <= most) return;
+    run.note(
+        {"boards that camera '" + camera + "' sees",
+         std::to_string(seen.size()) + " image boards; only the " + std::to_string(most) +
+             " largest are tried",
+         "max_image_boards " + std::to_string(most),
+         "a pattern of dark squares may have been taken for boards: see the detector's overlay"});
+    const auto diagonal = [](const ImageBoard* board) {
+        return board->corners.empty() ? 0.0
+                                      : (board->corners.front() - board->corners.back()).norm();
+    };
+    std::vector<std::size_t> order(seen.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return diagonal(seen[a]) > diagonal(seen[b]);
+    });
+    order.resize(most);
+    std::sort(order.begin(), order.end());
+    std::vector<const ImageBoard*> kept;
+    std::vector<int> kept_index;
+    for (const std::size_t i : order) {
+        kept.push_back(seen[i]);
+        kept_index.push_back(index[i]);
+    }
+    seen = std::move(kept);
+    index = std::move(kept_index);
+}
+
 CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageBoards& image,
                                 const CameraInfo& camera) const {
     CameraPairs result;
@@ -149,6 +188,7 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
         seen.push_back(&image.boards[i]);
         index.push_back(static_cast<int>(i));
     }
+    keep_largest(run, camera.label, seen, index);
     const std::string counts = std::to_string(lidar.boards.size()) + " LiDAR boards and " +
                                std::to_string(seen.size()) + " image boards";
     const std::string sought =
@@ -160,7 +200,7 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
     }
 
     const CameraModel model = camera_model(camera.camera, p_.use_distortion);
-    const BoardOrders orders(model, lidar.boards, seen, p_);
+    const BoardOrders orders(model, lidar.boards, seen, p_, [&run] { run.check_cancelled(); });
     const auto found = orders.search();
     const auto choice = choose_order(orders, found, p_);
     if (!choice) {
@@ -192,6 +232,7 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
     for (const BoardMatch& match : choice->order.matches)
         result.boards.push_back({match.lidar, index[static_cast<std::size_t>(match.image)]});
     add_lidar_noise(model, lidar.boards, *choice, result.pairs);
+    doubt_what_is_no_noise(model, *choice, result);
 
     const std::size_t matched = result.boards.size();
     if (matched < std::min(lidar.boards.size(), seen.size()))
@@ -204,6 +245,33 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
     run.log(result.order.by == DecidedBy::undecided ? LogLevel::warning : LogLevel::info,
             text + result.order.reason);
     return result;
+}
+
+void BoardMatcher::doubt_what_is_no_noise(const CameraModel& model, const OrderChoice& choice,
+                                          CameraPairs& result) const {
+    if (result.order.by != DecidedBy::data) return;
+    constexpr double kUpperZ = 3.0902;        // 99.9 %
+    constexpr double kBoardRedundancy = 4.0;  // 32 numbers a board come from about 8 lines
+    double chi2 = 0.0;
+    for (const PointPair& pair : result.pairs) {
+        const auto pixel = model.project(choice.order.poses.front().T_camera_lidar * pair.lidar);
+        if (!pixel) continue;
+        const Eigen::Vector2d error = pair.image - *pixel;
+        chi2 += error.dot(pair.covariance.ldlt().solve(error)) / kBoardRedundancy;
+    }
+    const int freedom =
+        static_cast<int>(2.0 * static_cast<double>(result.pairs.size()) / kBoardRedundancy) - 6;
+    if (freedom < 1 || chi2 <= chi2_quantile(freedom, kUpperZ)) return;
+    const bool prior = (p_.upright || p_.use_max_baseline) && !result.order.contradicts_priors;
+    result.order.by = prior ? DecidedBy::prior : DecidedBy::undecided;
+    result.order.contradicts_priors = false;
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "; but chi-square %.1f with %d degrees of freedom is more than noise, so a board may be "
+        "false or not shared%s",
+        chi2, freedom, prior ? "; the priors hold" : "");
+    result.order.reason += text;
 }
 
 void BoardMatcher::add_lidar_noise(const CameraModel& model, const std::vector<LidarBoard>& boards,

@@ -50,8 +50,13 @@ bool by_rms(const BoardOrder& a, const BoardOrder& b) {
 }  // namespace
 
 BoardOrders::BoardOrders(const CameraModel& model, const std::vector<LidarBoard>& lidar,
-                         std::vector<const ImageBoard*> image, GateParams gates)
-    : model_(model), lidar_(lidar), image_(std::move(image)), gates_(gates) {
+                         std::vector<const ImageBoard*> image, GateParams gates,
+                         std::function<void()> poll)
+    : model_(model),
+      lidar_(lidar),
+      image_(std::move(image)),
+      gates_(gates),
+      poll_(std::move(poll)) {
     for (const LidarBoard& board : lidar_) rotations_.push_back(board_rotations(board.corners));
 }
 
@@ -147,6 +152,7 @@ std::vector<BoardMatch> BoardOrders::explained(const Eigen::Isometry3d& pose) co
 
 std::optional<BoardOrder> BoardOrders::refined(const std::vector<BoardMatch>& matches,
                                                const std::vector<Eigen::Isometry3d>& starts) const {
+    if (poll_) poll_();
     // Plain pixels: orders are compared by what they leave, not by how they are weighed.
     const ReprojectionProblem problem(model_, pairs(matches), false);
     BoardOrder order;
@@ -202,6 +208,36 @@ std::optional<BoardOrder> BoardOrders::reduced(BoardOrder order, std::size_t cou
         order = std::move(*smaller);
     }
     return order;
+}
+
+std::vector<BoardOrder> BoardOrders::kin(const BoardOrder& order) const {
+    std::vector<BoardOrder> found;
+    const auto try_one = [&](const std::vector<BoardMatch>& matches) {
+        if (auto other = refined(matches, pnp_poses("sqpnp", model_, pairs(matches))))
+            found.push_back(std::move(*other));
+    };
+    const auto rotations_of = [&](const BoardMatch& match) {
+        return static_cast<int>(rotations_[static_cast<std::size_t>(match.lidar)].size());
+    };
+    for (std::size_t m = 0; m < order.matches.size(); ++m) {
+        for (int r = 0; r < rotations_of(order.matches[m]); ++r) {
+            if (r == order.matches[m].rotation) continue;
+            auto matches = order.matches;
+            matches[m].rotation = r;
+            try_one(matches);
+        }
+        for (std::size_t n = m + 1; n < order.matches.size(); ++n) {
+            auto swapped = order.matches;
+            std::swap(swapped[m].image, swapped[n].image);
+            const int rotations = std::min(rotations_of(swapped[m]), rotations_of(swapped[n]));
+            for (int r = 0; r < rotations; ++r) {  // a twin is rolled as a whole
+                for (BoardMatch& match : swapped)
+                    match.rotation = std::min(r, rotations_of(match) - 1);
+                try_one(swapped);
+            }
+        }
+    }
+    return found;
 }
 
 bool BoardOrders::alike(std::size_t lidar, std::size_t image) const {

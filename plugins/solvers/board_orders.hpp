@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -43,9 +44,11 @@ struct GateParams {
 /// The orders in which the boards of one scene and one camera can belong together.
 class BoardOrders {
    public:
-    /// Both are kept by reference and must outlive this.
+    /// Model and LiDAR boards are kept by reference and must outlive this. `poll` is called before
+    /// each refinement and may throw, to cancel.
     BoardOrders(const CameraModel& model, const std::vector<LidarBoard>& lidar,
-                std::vector<const ImageBoard*> image, GateParams gates);
+                std::vector<const ImageBoard*> image, GateParams gates,
+                std::function<void()> poll = {});
 
     /// Every distinct order that a hypothesis (one board pair, one rotation, one planar minimum)
     /// leads to, refined; also those that miss their gate. Sorted by RMS.
@@ -53,10 +56,9 @@ class BoardOrders {
 
     /// Pairs of an order, board numbered by match, corners as the image has them.
     std::vector<PointPair> pairs(const std::vector<BoardMatch>& matches) const;
-    /// In how many rotations the LiDAR board of a match looks the same.
-    std::size_t rotation_count(const BoardMatch& match) const {
-        return rotations_[static_cast<std::size_t>(match.lidar)].size();
-    }
+    /// The orders nearest to one: one board rotated, or two boards swapped; refined, without any
+    /// gate.
+    std::vector<BoardOrder> kin(const BoardOrder& order) const;
     /// The order without its worst boards, down to `count`, refined again. None where that fails.
     std::optional<BoardOrder> reduced(BoardOrder order, std::size_t count) const;
 
@@ -85,6 +87,7 @@ class BoardOrders {
     const std::vector<LidarBoard>& lidar_;
     std::vector<const ImageBoard*> image_;
     GateParams gates_;
+    std::function<void()> poll_;
     std::vector<std::vector<CornerOrder>> rotations_;  ///< of each LiDAR board
 };
 

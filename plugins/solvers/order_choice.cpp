@@ -107,7 +107,9 @@ std::optional<OrderChoice> choose_order(const BoardOrders& boards,
                 other = &rival;
         if (other != nullptr) {
             const auto corners = static_cast<double>(boards.pairs(taken.matches).size());
-            choice.decision.runner_up_rms_ratio = other->rms_px() / std::max(taken.rms_px(), 1e-9);
+            // As compared with min_runner_up_ratio: with the floor.
+            choice.decision.runner_up_rms_ratio = std::max(other->rms_px(), params.noise_floor_px) /
+                                                  std::max(taken.rms_px(), params.noise_floor_px);
             choice.decision.runner_up_chi2 =
                 corners * (std::pow(other->rms_px(), 2) - std::pow(taken.rms_px(), 2)) /
                 kBoardRedundancy;
@@ -116,23 +118,29 @@ std::optional<OrderChoice> choose_order(const BoardOrders& boards,
         return choice;
     };
 
-    const BoardOrder& best = rivals.front();
+    const BoardOrder best = rivals.front();
+    // The search may have passed over every rival; then the nearest kin of the order are rivals
+    // enough.
+    if (rivals.size() == 1)
+        for (BoardOrder& kin : boards.kin(best)) add_distinct(rivals, std::move(kin));
     double runner_up = 0.0;
     for (const BoardOrder& rival : rivals)
         if (!same(rival, best) && (runner_up == 0.0 || rival.rms_px() < runner_up))
             runner_up = rival.rms_px();
     const double floored =
         std::max(runner_up, params.noise_floor_px) / std::max(best.rms_px(), params.noise_floor_px);
-    // One board alone maps onto itself: whatever its residuals prefer is noise.
-    const bool symmetric = most == 1 && boards.rotation_count(best.matches.front()) > 1;
+    // One board alone maps onto itself, exactly or nearly: whatever its residuals prefer is noise.
+    const bool symmetric = most == 1;
     if (!symmetric && (runner_up == 0.0 || floored >= params.min_runner_up_ratio)) {
         const bool contradicts = !priors_hold(best.poses.front().T_camera_lidar, params);
-        return fill(
-            best, DecidedBy::data,
-            (runner_up == 0.0
-                 ? std::string("no other order explains as many boards")
-                 : text("the best other order has %.2f times the RMS", floored, 0, 0)) +
-                (contradicts ? "; the priors (" + prior_names(params) + ") do not hold" : ""));
+        OrderChoice decided =
+            fill(best, DecidedBy::data,
+                 (runner_up == 0.0
+                      ? std::string("no other order explains as many boards")
+                      : text("the best other order has %.2f times the RMS", floored, 0, 0)) +
+                     (contradicts ? "; the priors (" + prior_names(params) + ") do not hold" : ""));
+        decided.decision.contradicts_priors = contradicts;
+        return decided;
     }
 
     const std::string alike =
@@ -163,7 +171,12 @@ std::optional<OrderChoice> choose_order(const BoardOrders& boards,
                                      "times the RMS",
                                      static_cast<double>(left.size()), ratio, 0));
     }
-    return fill(left[0], DecidedBy::prior, alike + "; taken: " + prior_names(params));
+    return fill(left[0], DecidedBy::prior,
+                alike + "; taken: " + prior_names(params) +
+                    text(" (%.2f times the best RMS)",
+                         std::max(left[0].rms_px(), params.noise_floor_px) /
+                             std::max(best.rms_px(), params.noise_floor_px),
+                         0, 0));
 }
 
 }  // namespace petal

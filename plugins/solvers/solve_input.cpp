@@ -4,6 +4,7 @@
 #include "solvers/solve_input.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "petal/error.hpp"
@@ -33,7 +34,12 @@ int rank(DecidedBy by) {
 
 bool worse(const OrderDecision& a, const OrderDecision& b) {
     if (rank(a.by) != rank(b.by)) return rank(a.by) < rank(b.by);
-    return a.runner_up_rms_ratio < b.runner_up_rms_ratio;
+    // 0 says that there was no runner-up at all.
+    const auto ratio = [](const OrderDecision& order) {
+        return order.runner_up_rms_ratio > 0.0 ? order.runner_up_rms_ratio
+                                               : std::numeric_limits<double>::infinity();
+    };
+    return ratio(a) < ratio(b);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 
 #include "petal/calibration/se3.hpp"
@@ -31,6 +32,21 @@ std::string other_pose(const std::vector<RefinedPose>& poses, double min_ratio) 
         (poses[1].T_camera_lidar.translation() - poses[0].T_camera_lidar.translation()).norm(),
         ratio);
     return text;
+}
+
+/// Where a prior chose among poses that fit alike, the solver must not choose again by residuals:
+/// the pose nearest to the matcher's comes first.
+void keep_choice_of_prior(const SolveInput& input, std::vector<RefinedPose>& poses) {
+    if (input.order.by != DecidedBy::prior || input.initial.empty()) return;
+    const Eigen::Isometry3d& chosen = input.initial.front();
+    const auto nearest =
+        std::min_element(poses.begin(), poses.end(), [&](const auto& a, const auto& b) {
+            const auto angle = [&](const RefinedPose& pose) {
+                return rotation_angle(pose.T_camera_lidar.linear().transpose() * chosen.linear());
+            };
+            return angle(a) < angle(b);
+        });
+    std::rotate(poses.begin(), nearest, std::next(nearest));
 }
 
 }  // namespace
@@ -60,7 +76,7 @@ void run_solver(Run& run, const SolverParams& params, const RobustLoss& loss,
         }
         const ReprojectionProblem problem(camera_model(input.model, params.use_distortion),
                                           input.pairs, params.weighting == "covariance", loss);
-        const auto poses = search(input, problem);
+        auto poses = search(input, problem);
         if (poses.empty()) {
             unsolved(who,
                      "no pose puts the " + std::to_string(input.pairs.size()) +
@@ -69,6 +85,7 @@ void run_solver(Run& run, const SolverParams& params, const RobustLoss& loss,
                      "check the pairs, the intrinsics and their distortion");
             continue;
         }
+        keep_choice_of_prior(input, poses);
         CameraExtrinsics camera = estimate(input, problem, poses.front().T_camera_lidar, params);
         const double rotation_per_m = params.usable_sigma > 0.0 && params.usable_sigma_deg > 0.0
                                           ? params.usable_sigma_deg / kDegrees / params.usable_sigma

@@ -88,6 +88,10 @@ Level judge(const CameraExtrinsics& camera, const VerdictParams& params,
         case DecidedBy::given:
             break;
     }
+    if (camera.order.contradicts_priors) {
+        lower(level, Level::weak);
+        reasons.push_back(who + "the data decided the order, but " + camera.order.reason);
+    }
     if (camera.order.by == DecidedBy::undecided || camera.order.by == DecidedBy::prior)
         reasons.push_back(who +
                           (camera.order.by == DecidedBy::prior

@@ -51,7 +51,8 @@ columns.
 `distortion_coefficients`, `D`, ...; `ImageSize` or `image_width` and `image_height`), or text
 with the word `intrinsic` and nine numbers, then the word `distortion` and its coefficients. Plumb
 bob takes 4, 5 or 8 coefficients, Kannala-Brandt (fisheye, equidistant) 4; more than 8 are
-refused, because MRPT's camera holds no more. Where the file gives no image size, the image's is
+refused, because MRPT's camera holds no more, and so is a file without coefficients unless the
+model is none. Where the file gives no image size, the image's is
 taken, and the log says so; where it gives another size, the run ends.
 
 **Cloud**: by its ending `.pcd` (ascii, binary, binary_compressed) or `.ply` (ascii, binary), else

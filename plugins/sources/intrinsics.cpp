@@ -23,12 +23,47 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::containers::yaml;
 
+/// The keys of the distortion's coefficients in YAML.
+constexpr std::initializer_list<const char*> kDistortionKeys = {
+    "DistCoeff", "distortion_coefficients", "Distortion_Coefficients", "distCoeffs", "D", "D1"};
+
+/// The keys of the distortion's model in YAML.
+constexpr std::initializer_list<const char*> kModelKeys = {"DistModel", "distortion_model",
+                                                           "camera_model"};
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string listed(std::initializer_list<const char*> words) {
+    std::string text;
+    for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+    return text;
+}
+
+/// Keys that look like the distortion's but are none that are read; empty, or a part of a sentence.
+std::string unknown_distortion_keys(const yaml& root) {
+    std::string text;
+    for (const auto& [name, value] : root.asMap()) {
+        if (!name.isScalar()) continue;
+        const auto key = name.as<std::string>();
+        const auto is_key = [&](const char* known) { return key == known; };
+        if (lower(key).rfind("dist", 0) == 0 &&
+            std::none_of(kDistortionKeys.begin(), kDistortionKeys.end(), is_key) &&
+            std::none_of(kModelKeys.begin(), kModelKeys.end(), is_key))
+            text += "; " + in_quotes(key) + " is none of them";
+    }
+    return text;
+}
+
 /// The file's content, not judged yet.
 struct Raw {
     std::vector<double> matrix;
     std::vector<double> coefficients;
     std::vector<double> size;  ///< width, height; or empty
     std::string model;
+    std::string looked_for;  ///< where the coefficients were looked for, for messages
 };
 
 /// Every message names the file.
@@ -112,15 +147,16 @@ class IntrinsicsReader {
             root, {"CameraMat", "camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "M1"});
         if (raw.matrix.empty())
             fail("no camera matrix; its key must be CameraMat, camera_matrix, cameraMatrix or K");
-        raw.coefficients = numbers(root, {"DistCoeff", "distortion_coefficients",
-                                          "Distortion_Coefficients", "distCoeffs", "D", "D1"});
+        raw.coefficients = numbers(root, kDistortionKeys);
+        raw.looked_for =
+            "looked for are the keys " + listed(kDistortionKeys) + unknown_distortion_keys(root);
         raw.size = numbers(root, {"ImageSize", "image_size"});
         if (raw.size.empty()) {
             const auto width = numbers(root, {"image_width", "image_Width", "width"});
             const auto height = numbers(root, {"image_height", "image_Height", "height"});
             if (width.size() == 1 && height.size() == 1) raw.size = {width[0], height[0]};
         }
-        for (const char* key : {"DistModel", "distortion_model", "camera_model"})
+        for (const char* key : kModelKeys)
             if (raw.model.empty() && root.has(key) && root[key].isScalar())
                 raw.model = root[key].as<std::string>();
         return raw;
@@ -173,6 +209,7 @@ class IntrinsicsReader {
     Raw read_text() const {
         const std::string bytes = read_whole_file(file_, "intrinsics file");
         Raw raw;
+        raw.looked_for = "looked for is the word `distortion` with its coefficients";
         std::vector<double>* block = nullptr;
         std::size_t line_number = 0;
         for (std::size_t begin = 0; begin < bytes.size();) {
@@ -224,8 +261,7 @@ class IntrinsicsReader {
     }
 
     void fill_distortion(const Raw& raw, mrpt::img::TCamera& camera) const {
-        std::string model = raw.model;
-        for (char& c : model) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        const std::string model = lower(raw.model);
         const auto& d = raw.coefficients;
         const auto is = [&](std::initializer_list<const char*> names) {
             return std::find(names.begin(), names.end(), model) != names.end();
@@ -233,6 +269,10 @@ class IntrinsicsReader {
         for (const double value : d)
             if (!std::isfinite(value)) fail("the distortion has a NaN or an infinity");
         if (is({"none", "ideal"})) return;
+        // A key that is not recognised must not mean a camera without distortion.
+        if (d.empty())
+            fail("no distortion coefficients (" + raw.looked_for +
+                 "); give the coefficients, or set distortion_model to none");
         if (is({"kannala_brandt", "equidistant", "fisheye", "kannala-brandt"})) {
             if (d.size() != 4)
                 fail("the Kannala-Brandt (fisheye) model has 4 coefficients, not " +
@@ -244,7 +284,6 @@ class IntrinsicsReader {
         if (!is({"", "plumb_bob", "rational_polynomial", "radtan", "pinhole", "opencv"}))
             fail("unknown distortion model " + in_quotes(raw.model) +
                  "; known are none, plumb_bob, rational_polynomial, equidistant and fisheye");
-        if (d.empty()) return;
         if (d.size() > 8)
             fail(std::to_string(d.size()) +
                  " distortion coefficients; at most 8 can be held (k1 k2 p1 p2 k3 k4 k5 k6). "

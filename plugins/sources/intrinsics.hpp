@@ -29,6 +29,7 @@ struct Intrinsics {
 /// `model`: auto, none, plumb_bob, kannala_brandt. With auto the file's own word counts (plumb_bob,
 /// radtan, rational_polynomial, ...; equidistant, fisheye, kannala_brandt); without a word it is
 /// plumb bob. Plumb bob takes 4, 5 or 8 coefficients in OpenCV's order, Kannala-Brandt 4.
+/// A file without coefficients is an error unless the model, given or the file's, is none.
 /// \throws Error naming the file and what is wrong.
 Intrinsics read_intrinsics(const std::filesystem::path& file, const std::string& model = "auto");
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -55,14 +56,34 @@ class PcdReader {
         if (layout_.fields.empty()) fail("no FIELDS line before DATA");
         if (layout_.records == 0 && !has_points_) layout_.records = width_ * height_;
         if (layout_.records == 0) return {};
-        if (data_ == "ascii") return read_text_records(file_, layout_, rest_, line_ + 1);
-        if (data_ == "binary") return read_binary_records(file_, layout_, rest_);
-        return compressed();
+        CloudFile cloud = records();
+        cloud.remark = remark_;
+        return cloud;
     }
 
    private:
     [[noreturn]] void fail(const std::string& text) const {
         throw Error(file_.string() + ":" + std::to_string(line_) + ": " + text);
+    }
+
+    CloudFile records() const {
+        if (data_ == "ascii") return read_text_records(file_, layout_, rest_, line_ + 1);
+        if (data_ == "binary") return read_binary_records(file_, layout_, rest_);
+        return compressed();
+    }
+
+    /// The points lie in the sensor's frame, so the pose is not applied; what it says is told.
+    void viewpoint(const std::vector<std::string_view>& words) {
+        constexpr std::array<double, 7> identity = {0, 0, 0, 1, 0, 0, 0};  // translation, w x y z
+        bool same = words.size() == identity.size() + 1;
+        std::string text;
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            text += (text.empty() ? "" : " ") + std::string(words[i]);
+            same = same && parse_number(words[i]) == identity[i - 1];
+        }
+        remark_ = same ? ""
+                       : "VIEWPOINT " + in_quotes(text) +
+                             " is not applied; the points stay as they stand";
     }
 
     std::size_t count(std::string_view word) const {
@@ -114,7 +135,9 @@ class PcdReader {
                 (words[1] != "ascii" && words[1] != "binary" && words[1] != "binary_compressed"))
                 fail("DATA must be ascii, binary or binary_compressed");
             data_ = words[1];
-        } else if (key != "VERSION" && key != "VIEWPOINT") {
+        } else if (key == "VIEWPOINT") {
+            viewpoint(words);
+        } else if (key != "VERSION") {
             fail("unknown PCD header line " + in_quotes(key));
         }
     }
@@ -140,6 +163,7 @@ class PcdReader {
     std::size_t width_ = 0;
     std::size_t height_ = 1;
     std::string data_;
+    std::string remark_;
 };
 
 }  // namespace

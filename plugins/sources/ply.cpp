@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <cmath>
 #include <map>
 
 #include "petal/error.hpp"
@@ -74,7 +75,7 @@ class PlyReader {
 
     void element(const std::vector<std::string_view>& words) {
         const auto count = parse_number(words[2]);
-        if (!count || !(*count >= 0.0 && *count < 4294967296.0))
+        if (!count || !(*count >= 0.0 && *count < 4294967296.0) || std::floor(*count) != *count)
             fail(in_quotes(words[2]) + " is no count");
         in_vertices_ = words[1] == "vertex";
         // What comes after the vertices (faces) is never read; what comes before would have to be

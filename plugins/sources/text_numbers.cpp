@@ -32,6 +32,23 @@ std::vector<std::string_view> split_at(std::string_view line, char separator) {
     return words;
 }
 
+constexpr const char* kDecimalHint =
+    "write decimals with points, separate columns by spaces or semicolons";
+
+/// Whether columns are separated by commas, so that a decimal comma would make two of one.
+bool comma_separated(std::string_view line) {
+    return line.find(';') == std::string_view::npos && line.find(',') != std::string_view::npos;
+}
+
+/// Whether a first row looks like 3 or 4 numbers with decimal commas: 2,215,0,750,-0,350. A header
+/// of as many names as the row has columns says otherwise.
+bool may_be_decimal_commas(std::string_view line, const std::vector<std::string_view>& words,
+                           const std::vector<std::string>& header) {
+    return comma_separated(line) && (words.size() == 6 || words.size() == 8) &&
+           (header.empty() || header.size() * 2 == words.size()) &&
+           line.find('.') == std::string_view::npos;
+}
+
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
@@ -102,6 +119,9 @@ TextTable read_text_table(const std::filesystem::path& file, const std::string& 
             if (words.size() < min_columns)
                 fail(std::to_string(words.size()) + " columns; " + what + " needs at least " +
                      std::to_string(min_columns));
+            if (may_be_decimal_commas(line, words, table.header))
+                fail(std::to_string(words.size()) +
+                     " whole numbers between commas look like decimal commas; " + kDecimalHint);
             table.columns = words.size();
         }
         if (words.size() != table.columns)
@@ -111,6 +131,9 @@ TextTable read_text_table(const std::filesystem::path& file, const std::string& 
             const std::optional<double> value = parse_number(word);
             if (!value && word.find(',') != std::string_view::npos)
                 fail(in_quotes(word) + " is no number; write decimals with a point, not a comma");
+            if (!value && comma_separated(line) && word.find_first_of(kBlanks) != word.npos)
+                fail(in_quotes(word) +
+                     " is no number; where commas are decimal commas: " + kDecimalHint);
             if (!value) fail(in_quotes(word) + " is no number");
             table.values.push_back(*value);
         }

@@ -180,7 +180,7 @@ TEST(ImageContours, APhotoWithoutABoardGivesANoteAndAPicture) {
     ASSERT_EQ(stage.notes().size(), 1u);
     EXPECT_THAT(stage.notes()[0].looked_for, HasSubstr("cam/0"));
     EXPECT_THAT(stage.notes()[0].nearest_miss, HasSubstr("dark squares"));
-    EXPECT_EQ(files_with(stage.folder(), "squares_cam_0.png"), 1u);
+    EXPECT_EQ(files_with(stage.folder(), "squares_cam%2F0.png"), 1u);
 }
 
 TEST(ImageContours, TwoOfFourHolesAreToldAsTheNearestMiss) {

@@ -117,5 +117,34 @@ TEST(OverlayTest, WithoutExtrinsicsThePhotoIsStillDrawnAndThePacketUntouched) {
     EXPECT_EQ(cv::countNonZero(pixels != 100), 0);
 }
 
+TEST(OverlayTest, LabelsAreNoPathsAndDoNotMeet) {
+    Images photos;
+    const std::vector<std::string> labels = {"/cam/front", "_cam_front", "../../esc", "a/b", "a_b"};
+    for (const std::string& label : labels) {
+        photos.cameras.push_back(grey_photo().cameras[0]);
+        photos.cameras.back().label = label;
+    }
+    StageHarness sink = StageHarness::of<Overlay>();
+    sink.give<Images>("images", photos).give<Extrinsics>("extrinsics", Extrinsics{});
+    sink.fire();
+    std::size_t pictures = 0;
+    for (const auto& entry : fs::directory_iterator(sink.folder() / "stages" / "stage")) {
+        EXPECT_TRUE(entry.is_regular_file()) << entry.path();
+        ++pictures;
+    }
+    EXPECT_EQ(pictures, labels.size());
+}
+
+TEST(OverlayTest, ScenesOfOneNameHaveTheirOwnPictures) {
+    StageHarness sink = StageHarness::of<Overlay>();
+    sink.give<Extrinsics>("extrinsics", Extrinsics{});
+    sink.give<Images>("images", grey_photo(), "../scene");
+    sink.give<Images>("images", grey_photo(), "../scene");
+    sink.fire();
+    const fs::path folder = sink.folder() / "stages" / "stage";
+    EXPECT_TRUE(fs::exists(folder / "%2E.%2Fscene_CAMERA.png"));
+    EXPECT_TRUE(fs::exists(folder / "%2E.%2Fscene_CAMERA_2.png"));
+}
+
 }  // namespace
 }  // namespace petal

@@ -136,6 +136,17 @@ TEST(ResultSinkTest, BoardsStandInTheCamerasOrderAndLoneOnesHaveNull) {
     EXPECT_EQ(boards[2]["corners_image"][0][0], 100.0);
 }
 
+TEST(ResultSinkTest, BoardsOfGivenPairsAreToldWithoutADetectorsBoard) {
+    Example example;
+    example.pairs.cameras[0].boards.clear();  // as source.pairs writes them
+    StageHarness sink = StageHarness::of<ResultSink>();
+    sink.give<Extrinsics>("extrinsics", example.extrinsics)
+        .give<Correspondences>("correspondences", example.pairs, "hall");
+    const json result = result_of(sink);
+    ASSERT_EQ(result["scenes"][0]["boards"].size(), 1U);
+    EXPECT_EQ(result["scenes"][0]["boards"][0]["corners_lidar"].size(), 16U);
+}
+
 TEST(ResultSinkTest, TakesMetricsOfSeveralStages) {
     StageHarness sink = Example().harness();
     sink.give<Metrics>("metrics", Metrics{{{"reprojection.rms_px", 0.5, "px", ""}}});

@@ -100,6 +100,25 @@ TEST_F(CloudFiles, BadTextIsToldWithItsLine) {
     EXPECT_THAT(refusal([&] { read_cloud_file(folder_); }), HasSubstr("is a folder"));
 }
 
+TEST_F(CloudFiles, DecimalCommasAreNotTakenForColumns) {
+    for (const char* text :
+         {"# lidar\n2,215,0,750,-0,350\n2,300,0,751,-0,349\n", "\n2,215, 0,750, -0,350,\n",
+          "# lidar\n2,215,0,750,-0,350,0,5\n", "x,y,z\n2,215,0,750,-0,350\n"})
+        EXPECT_THAT(refused("a.csv", text),
+                    AllOf(HasSubstr("a.csv:2: "), HasSubstr("decimal commas"),
+                          HasSubstr("write decimals with points, separate columns by spaces or "
+                                    "semicolons")))
+            << text;
+    for (const char* text : {"2,215 0,750 -0,350\n", "2,215\t0,750\t-0,350\n"})
+        EXPECT_THAT(refused("a.csv", text), AllOf(HasSubstr("a.csv:1: "), HasSubstr("is no number"),
+                                                  HasSubstr("write decimals with points")))
+            << text;
+    // One point in the first row, a header, or another separator: numbers as they stand.
+    for (const char* text : {"1,2,3,255,0,0.5\n", "x,y,z,r,g,b\n1,2,3,255,0,0\n", "1 2 3 255 0 0\n",
+                             "1;2;3;255;0;0\n", "1,2,3,4,5\n"})
+        EXPECT_EQ(point(read_cloud_file(write("a.csv", text)), 0)[2], 3.0F) << text;
+}
+
 TEST_F(CloudFiles, PcdAscii) {
     const CloudFile cloud =
         read_cloud_file(write("a.pcd", pcd("2", "ascii") + "1 2 3 7 0.5\nnan nan nan 8 0.25\n"));
@@ -143,6 +162,21 @@ TEST_F(CloudFiles, PcdCompressed) {
     EXPECT_THAT(refused("c.pcd", head + lengths + lzf), HasSubstr("damaged"));
 }
 
+TEST_F(CloudFiles, APcdViewpointThatIsNotAppliedIsTold) {
+    const auto remark = [&](const std::string& viewpoint) {
+        return read_cloud_file(
+                   write("a.pcd", "FIELDS x y z\n" + viewpoint + "POINTS 1\nDATA ascii\n1 2 3\n"))
+            .remark;
+    };
+    EXPECT_EQ(remark(""), "");
+    EXPECT_EQ(remark("VIEWPOINT 0 0 0 1 0 0 0\n"), "");
+    EXPECT_EQ(remark("VIEWPOINT 0.0 -0 0 1.0 0 0 0\n"), "");
+    EXPECT_THAT(remark("VIEWPOINT 0 0 1.5 1 0 0 0\n"),
+                AllOf(HasSubstr("VIEWPOINT '0 0 1.5 1 0 0 0'"), HasSubstr("not applied")));
+    EXPECT_THAT(remark("VIEWPOINT 0 0 0 0 1 0 0\n"), HasSubstr("not applied"));
+    EXPECT_THAT(remark("VIEWPOINT here\n"), HasSubstr("not applied"));
+}
+
 TEST_F(CloudFiles, BadPcdIsTold) {
     EXPECT_THAT(refused("a.pcd", pcd("3", "binary") + packed({1, 2, 3})),
                 AllOf(HasSubstr("truncated"), HasSubstr("54 bytes"), HasSubstr("only 12")));
@@ -175,6 +209,10 @@ TEST_F(CloudFiles, PlyInItsThreeFormats) {
         EXPECT_EQ(point(cloud, 0), (std::vector<float>{1, 2, 3, 9}));
     }
     EXPECT_THAT(refused("b.ply", "no ply\n"), HasSubstr("first line must be 'ply'"));
+    for (const char* count : {"2.7", "-1", "nan", "1e99", "two"})
+        EXPECT_THAT(refused("b.ply", std::string("ply\nformat ascii 1.0\nelement vertex ") + count +
+                                         "\nproperty float x\n"),
+                    HasSubstr("b.ply:3: '" + std::string(count) + "' is no count"));
     EXPECT_THAT(refused("b.ply", header("ascii")), HasSubstr("truncated"));
     EXPECT_THAT(refused("b.ply", header("binary_little_endian") + "abc"),
                 HasSubstr("only 3 follow"));

@@ -31,7 +31,7 @@ class FilesStage : public testing::TemporaryFolder {
                 pixels.at<cv::Vec3b>(row, column) = cv::Vec3b(
                     static_cast<unsigned char>(row), static_cast<unsigned char>(column), 200);
         cv::imwrite((folder_ / "image.png").string(), pixels);
-        write("k.txt", "intrinsic 10 0 4 0 10 3 0 0 1");
+        write("k.txt", "intrinsic 10 0 4 0 10 3 0 0 1 distortion 0 0 0 0");
         write("cloud.csv", "1,2,3,0.5\n4,5,6,0.25\n");
     }
     StageHarness stage(const std::string& image, const std::string& intrinsics,
@@ -89,7 +89,9 @@ TEST_F(FilesStage, AnEmptyCloudIsValidAndNoted) {
 }
 
 TEST_F(FilesStage, AnotherImageSizeEndsTheRun) {
-    write("other.yaml", "K: [10, 0, 4, 0, 10, 3, 0, 0, 1]\nwidth: 640\nheight: 480\n");
+    write("other.yaml",
+          "K: [10, 0, 4, 0, 10, 3, 0, 0, 1]\nD: [0, 0, 0, 0]\n"
+          "width: 640\nheight: 480\n");
     StageHarness harness = stage("image.png", "other.yaml", "");
     EXPECT_THAT(refusal([&] { harness.fire(); }),
                 AllOf(HasSubstr("8 x 6"), HasSubstr("640 x 480")));

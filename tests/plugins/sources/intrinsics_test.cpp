@@ -98,6 +98,35 @@ TEST_F(IntrinsicsFiles, AnotherSizeNamesBoth) {
                 AllOf(HasSubstr("1280 x 720"), HasSubstr("640 x 480")));
 }
 
+TEST_F(IntrinsicsFiles, NoCoefficientsIsAnErrorUnlessTheModelIsNone) {
+    const std::string matrix = "K: [9, 0, 10, 0, 8, 5, 0, 0, 1]\n";
+    const auto says = AllOf(HasSubstr("a.yaml"), HasSubstr("DistCoeff"), HasSubstr("D1"),
+                            HasSubstr("give the coefficients, or set distortion_model to none"));
+    for (const char* more : {"", "D: []\n", "dist_coeffs: [0.1, 0, 0, 0]\n", "distCoeffs: []\n",
+                             "distortion_coeffs: [0.1, 0, 0, 0]\n", "distortion_model: radtan\n"}) {
+        EXPECT_THAT(refused("a.yaml", matrix + more), says) << more;
+        EXPECT_THAT(refused("a.yaml", matrix + more, "plumb_bob"), says) << more;
+        EXPECT_THAT(refused("a.yaml", matrix + more, "kannala_brandt"), says) << more;
+        EXPECT_EQ(read_intrinsics(write("a.yaml", matrix + more), "none").camera.distortion,
+                  DistortionModel::none)
+            << more;
+    }
+    EXPECT_THAT(refused("a.yaml", matrix + "Dist_Coeffs: [0.1, 0, 0, 0]\n"),
+                HasSubstr("'Dist_Coeffs' is none of them"));
+    EXPECT_THAT(refused("a.yaml", opencv("")), says);
+    const auto none = read_intrinsics(write("a.yaml", matrix + "distortion_model: none\n"));
+    EXPECT_EQ(none.camera.distortion, DistortionModel::none);
+
+    const std::string text = "intrinsic\n9 0 10\n0 8 5\n0 0 1\n";
+    for (const char* more : {"", "distortion\n"}) {
+        EXPECT_THAT(refused("k.txt", text + more),
+                    AllOf(HasSubstr("k.txt"), HasSubstr("`distortion`"),
+                          HasSubstr("give the coefficients, or set distortion_model to none")));
+        EXPECT_EQ(read_intrinsics(write("k.txt", text + more), "none").camera.distortion,
+                  DistortionModel::none);
+    }
+}
+
 TEST_F(IntrinsicsFiles, NamesWhatIsWrong) {
     EXPECT_THAT(refused("a.yaml", "a: [1,\n"), HasSubstr("no YAML"));
     EXPECT_THAT(refused("a.yaml", "a: 1\n"), HasSubstr("no camera matrix"));

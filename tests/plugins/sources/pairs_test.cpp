@@ -21,7 +21,9 @@ class PairsStage : public testing::TemporaryFolder {
    protected:
     void SetUp() override {
         TemporaryFolder::SetUp();
-        write("k.yaml", "K: [100, 0, 50, 0, 100, 40, 0, 0, 1]\nwidth: 100\nheight: 80\n");
+        write("k.yaml",
+              "K: [100, 0, 50, 0, 100, 40, 0, 0, 1]\nD: [0, 0, 0, 0]\n"
+              "width: 100\nheight: 80\n");
         std::string text = "x,y,z,u,v\n";
         for (int i = 0; i < 6; ++i)
             text += std::to_string(i) + ",2,3," + std::to_string(10 + i) + ",20\n";
@@ -103,7 +105,7 @@ TEST_F(PairsStage, NamesWhatIsWrong) {
     StageHarness nan = stage();
     nan.set("pairs", (folder_ / "nan.csv").c_str());
     EXPECT_THAT(refusal([&] { nan.fire(); }), HasSubstr("not finite"));
-    write("six.csv", "1,2,3,4,5,6\n");
+    write("six.csv", "1,2,3,4,5,6.5\n");
     StageHarness six = stage();
     six.set("pairs", (folder_ / "six.csv").c_str());
     EXPECT_THAT(refusal([&] { six.fire(); }), HasSubstr("5 are expected"));
@@ -118,7 +120,7 @@ TEST_F(PairsStage, TwoFilesMustHaveAsManyRows) {
 }
 
 TEST_F(PairsStage, IntrinsicsWithoutASizeNeedOne) {
-    const auto file = write("k.txt", "intrinsic 100 0 50 0 100 40 0 0 1");
+    const auto file = write("k.txt", "intrinsic 100 0 50 0 100 40 0 0 1 distortion 0 0 0 0");
     StageHarness harness = stage();
     harness.set("intrinsics", file.c_str());
     EXPECT_THAT(refusal([&] { harness.fire(); }), HasSubstr("image_size"));

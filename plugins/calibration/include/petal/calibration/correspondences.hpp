@@ -41,7 +41,8 @@ struct OrderDecision {
     double runner_up_rms_ratio =
         0.0;                      ///< RMS of the best other order over that; 0 where there is none
     double runner_up_chi2 = 0.0;  ///< chi-square of the runner-up less that of the order taken
-    std::string reason;           ///< plain words, for the verdict
+    bool contradicts_priors = false;  ///< decided by data, against a prior that is on
+    std::string reason;               ///< plain words, for the verdict
 };
 
 /// The pairs of one scene and one camera.
