@@ -10,4 +10,14 @@ cd "$(dirname "$0")"
 scripts/install_packages.sh
 echo "building"
 scripts/build.sh
-ctest --test-dir build --no-tests=error --output-on-failure --progress -j "$(nproc)" | grep -vE '^\s*$|^Test project' | tail -n 200
+echo "testing"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+code=0
+ctest --test-dir build --no-tests=error --output-on-failure -j "$(nproc)" >"$log" 2>&1 || code=$?
+if [ "$code" -eq 0 ]; then
+    sed -n '/tests passed/,$p' "$log"
+else
+    grep -vE '^ *(Start +)?[0-9]+(/[0-9]+ Test)?.*(Passed|Start| Skipped)' "$log" >&2 || true
+fi
+exit "$code"
