@@ -117,7 +117,7 @@ The true upper side the LiDAR cannot tell: a square board looks alike in four or
     s.role("lidar_board_detector");
     s.reads<Cloud>("cloud",
                    "margin points in the LiDAR frame: the cloud that the planes were found in");
-    s.reads<Planes>("planes", "plane patches with their points; this stage needs them").optional();
+    s.reads<Planes>("planes", "plane patches with their points");
     s.writes<LidarBoards>("boards", "the boards, in the order of their planes");
     s.param("target", &Params::target)
         .doc(
@@ -183,12 +183,7 @@ The true upper side the LiDAR cannot tell: a square board looks alike in four or
 }
 
 void BoardLines::run(Run& run) {
-    const auto planes = run.find<Planes>("planes");
-    if (!planes)
-        throw Error(
-            "board_lines needs its port 'planes': wire it to a plane_detector, e.g. planes.planes, "
-            "or "
-            "take another lidar_board_detector");
+    const auto planes = run.in_ptr<Planes>("planes");
     const Target target = load_target(p_.target);
     const HoleGrid grid = HoleGrid::of(target);
     const BoardFinder finder(grid, p_);

@@ -49,6 +49,14 @@ TEST_F(CommandLine, CheckNeedsNoDataAndRunDoes) {
     EXPECT_FALSE(fs::exists(folder_ / "out")) << "a refused pipeline makes no folder";
 }
 
+TEST_F(CommandLine, AMissingWireIsToldWithoutData) {
+    write("no_planes.json", R"({"stages": {"lidar_boards": {"in": {"planes": null}}}})");
+    const Ended ended = petal("check " + pipeline("letter_indoor.json") + " --with no_planes.json");
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("no_planes.json:1: stages.lidar_boards"), HasSubstr("'planes'")));
+}
+
 // Five mistakes of five kinds, told at once: each with path, line, what was expected, the nearest
 // name.
 TEST_F(CommandLine, FiveMistakesAreToldAtOnce) {
