@@ -4,8 +4,6 @@
 #include "declaration_check.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -14,6 +12,7 @@
 #include <variant>
 
 #include "nearest.hpp"
+#include "number_text.hpp"
 
 namespace petal {
 namespace {
@@ -30,13 +29,6 @@ bool is_type(const std::string& text) {
     const auto dot = text.find('.');
     return dot != std::string::npos && is_name(text.substr(0, dot)) &&
            is_name(text.substr(dot + 1));
-}
-
-/// The shortest text that reads back as the same number, whatever the locale.
-std::string number(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return std::string(text.data(), end);
 }
 
 const char* const kNameRule = "is not made of lower case letters, digits and '_'";
@@ -59,16 +51,16 @@ void check_element(const ParamSpec& param, const T& value, const std::string& wh
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::int64_t>) {
         const double as_double = static_cast<double>(value);
         if (!std::isfinite(as_double)) {
-            faults.push_back(who + "has the default " + number(as_double) +
+            faults.push_back(who + "has the default " + number_text(as_double) +
                              ", which is not a finite number");
             return;
         }
         if (param.min && as_double < *param.min)
-            faults.push_back(who + "has the default " + number(as_double) +
-                             " below its least value " + number(*param.min));
+            faults.push_back(who + "has the default " + number_text(as_double) +
+                             " below its least value " + number_text(*param.min));
         if (param.max && as_double > *param.max)
-            faults.push_back(who + "has the default " + number(as_double) +
-                             " above its greatest value " + number(*param.max));
+            faults.push_back(who + "has the default " + number_text(as_double) +
+                             " above its greatest value " + number_text(*param.max));
     } else if constexpr (std::is_same_v<T, std::string>) {
         const auto& choices = param.choices;
         if (param.kind == Kind::choice &&
@@ -109,8 +101,8 @@ void check_param(const ParamSpec& param, Faults& faults) {
     if (not_a_number(param.min) || not_a_number(param.max))
         faults.push_back(who + "has a bound that is not a number");
     if (param.min && param.max && *param.min > *param.max)
-        faults.push_back(who + "has the empty range " + number(*param.min) + " to " +
-                         number(*param.max));
+        faults.push_back(who + "has the empty range " + number_text(*param.min) + " to " +
+                         number_text(*param.max));
     if (param.kind == Kind::choice && param.choices.empty())
         faults.push_back(who + "is a choice without choices");
     check_default(param, who, faults);

@@ -1,22 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <array>
-#include <charconv>
 #include <limits>
 
 #include "nearest.hpp"
+#include "number_text.hpp"
 #include "param_check.hpp"
 
 namespace petal {
 namespace {
-
-/// The shortest text that reads back as the same number, whatever the locale.
-std::string number(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return std::string(text.data(), end);
-}
 
 /// "0.001 to 10 m", "at least 1"; the bounds of the type `int` itself are told where `whole`.
 std::string range(const ParamSpec& param, bool whole) {
@@ -24,9 +16,10 @@ std::string range(const ParamSpec& param, bool whole) {
     const bool has_min = param.min && !(integer && *param.min <= std::numeric_limits<int>::min());
     const bool has_max = param.max && !(integer && *param.max >= std::numeric_limits<int>::max());
     const std::string unit = param.unit.empty() || param.unit == "1" ? "" : " " + param.unit;
-    if (has_min && has_max) return number(*param.min) + " to " + number(*param.max) + unit;
-    if (has_min) return "at least " + number(*param.min) + unit;
-    if (has_max) return "at most " + number(*param.max) + unit;
+    if (has_min && has_max)
+        return number_text(*param.min) + " to " + number_text(*param.max) + unit;
+    if (has_min) return "at least " + number_text(*param.min) + unit;
+    if (has_max) return "at most " + number_text(*param.max) + unit;
     return unit.empty() ? "" : "in" + unit;
 }
 
