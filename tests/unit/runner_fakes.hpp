@@ -118,7 +118,7 @@ class Dice final : public petal::Stage {
     }
     explicit Dice(Params) {}
     void run(petal::Run& run) override {
-        run.write("number", Number{static_cast<std::int64_t>(run.rng()() >> 1)});
+        run.write("number", Number{static_cast<std::int64_t>(run.rng()() % 1000000007U)});
     }
 };
 
