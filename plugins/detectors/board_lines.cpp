@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "detectors/board_line_picture.hpp"
+#include "detectors/detail/board_line_picture.hpp"
 #include "petal/calibration/plane_fit.hpp"
 #include "petal/calibration/target.hpp"
 

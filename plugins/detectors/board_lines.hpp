@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "detectors/board_line_finder.hpp"
+#include "detectors/detail/board_line_finder.hpp"
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/planes.hpp"

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string>
 
-#include "detectors/image_board_grouping.hpp"
-#include "detectors/image_board_overlay.hpp"
-#include "detectors/image_board_refinement.hpp"
-#include "detectors/image_layout.hpp"
-#include "detectors/image_squares.hpp"
+#include "detectors/detail/image_board_grouping.hpp"
+#include "detectors/detail/image_board_overlay.hpp"
+#include "detectors/detail/image_board_refinement.hpp"
+#include "detectors/detail/image_layout.hpp"
+#include "detectors/detail/image_squares.hpp"
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/images.hpp"
 #include "petal/run.hpp"

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "detectors/plane_search.hpp"
+#include "detectors/detail/plane_search.hpp"
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/planes.hpp"
 #include "petal/run.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "metrics/error_figures.hpp"
+#include "metrics/detail/error_figures.hpp"
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"

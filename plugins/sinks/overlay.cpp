@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "overlay.hpp"
+#include "sinks/overlay.hpp"
 
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <string>
 
-#include "overlay_canvas.hpp"
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/cloud.hpp"
@@ -16,6 +15,7 @@
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/file_name.hpp"
 #include "petal/calibration/images.hpp"
+#include "sinks/detail/overlay_canvas.hpp"
 
 namespace petal {
 

@@ -10,7 +10,7 @@
 #include "petal/run.hpp"
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
-#include "sinks/rawlog_writer.hpp"
+#include "sinks/detail/rawlog_writer.hpp"
 
 namespace petal {
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "result.hpp"
+#include "sinks/result.hpp"
 
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/metrics.hpp"
 #include "petal/output.hpp"
-#include "result_json.hpp"
+#include "sinks/detail/result_json.hpp"
 
 namespace petal {
 

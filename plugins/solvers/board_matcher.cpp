@@ -10,8 +10,8 @@
 
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
-#include "solvers/solve_input.hpp"
-#include "solvers/verdict.hpp"
+#include "solvers/detail/solve_input.hpp"
+#include "solvers/detail/verdict.hpp"
 
 namespace petal {
 namespace {

@@ -10,7 +10,7 @@
 #include "petal/run.hpp"
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
-#include "solvers/order_choice.hpp"
+#include "solvers/detail/order_choice.hpp"
 
 namespace petal {
 

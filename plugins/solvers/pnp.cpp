@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "solvers/pose_starts.hpp"
-#include "solvers/solver_run.hpp"
+#include "solvers/detail/pose_starts.hpp"
+#include "solvers/detail/solver_run.hpp"
 
 namespace petal {
 

@@ -3,8 +3,8 @@
 
 #include "solvers/reprojection.hpp"
 
-#include "solvers/pose_starts.hpp"
-#include "solvers/solver_run.hpp"
+#include "solvers/detail/pose_starts.hpp"
+#include "solvers/detail/solver_run.hpp"
 
 namespace petal {
 

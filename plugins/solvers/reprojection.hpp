@@ -7,7 +7,7 @@
 
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
-#include "solvers/solver_params.hpp"
+#include "solvers/detail/solver_params.hpp"
 
 namespace petal {
 

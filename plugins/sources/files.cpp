@@ -10,10 +10,10 @@
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/truth.hpp"
 #include "petal/calibration/truth_json.hpp"
-#include "sources/cloud_file.hpp"
-#include "sources/input_file.hpp"
-#include "sources/intrinsics.hpp"
-#include "sources/scene_name.hpp"
+#include "sources/detail/cloud_file.hpp"
+#include "sources/detail/input_file.hpp"
+#include "sources/detail/intrinsics.hpp"
+#include "sources/detail/scene_name.hpp"
 
 namespace petal {
 namespace {

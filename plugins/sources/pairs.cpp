@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sources/intrinsics.hpp"
-#include "sources/scene_name.hpp"
-#include "sources/text_numbers.hpp"
+#include "sources/detail/intrinsics.hpp"
+#include "sources/detail/scene_name.hpp"
+#include "sources/detail/text_numbers.hpp"
 
 namespace petal {
 namespace {

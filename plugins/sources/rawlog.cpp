@@ -10,7 +10,7 @@
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/truth.hpp"
 #include "petal/calibration/truth_json.hpp"
-#include "sources/scene_name.hpp"
+#include "sources/detail/scene_name.hpp"
 
 namespace petal {
 

@@ -16,8 +16,8 @@
 #include "petal/run.hpp"
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
-#include "sources/rawlog_reader.hpp"
-#include "sources/scene_builder.hpp"
+#include "sources/detail/rawlog_reader.hpp"
+#include "sources/detail/scene_builder.hpp"
 
 namespace petal {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "detectors/image_squares.hpp"
+#include "detectors/detail/image_squares.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-#include "detectors/image_edge_sampler.hpp"
+#include "detectors/detail/image_edge_sampler.hpp"
 
 namespace petal {
 namespace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "petal/testing/stage_harness.hpp"
-#include "sinks/result_json.hpp"
+#include "sinks/detail/result_json.hpp"
 
 namespace petal {
 namespace {

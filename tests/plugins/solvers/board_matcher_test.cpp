@@ -15,8 +15,8 @@
 #include "petal/testing/stage_harness.hpp"
 #include "plugins/solvers/real_pairs.hpp"
 #include "real_data.hpp"
-#include "solvers/assignment.hpp"
-#include "solvers/board_symmetry.hpp"
+#include "solvers/detail/assignment.hpp"
+#include "solvers/detail/board_symmetry.hpp"
 #include "solvers/reprojection.hpp"
 
 namespace petal {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solvers/order_choice.hpp"
+#include "solvers/detail/order_choice.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solvers/reprojection_cost.hpp"
+#include "solvers/detail/reprojection_cost.hpp"
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/rotation.h>
@@ -9,7 +9,7 @@
 
 #include <random>
 
-#include "solvers/se3_manifold.hpp"
+#include "solvers/detail/se3_manifold.hpp"
 
 namespace petal {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solvers/verdict.hpp"
+#include "solvers/detail/verdict.hpp"
 
 #include <gtest/gtest.h>
 

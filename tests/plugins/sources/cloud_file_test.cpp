@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sources/cloud_file.hpp"
+#include "sources/detail/cloud_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sources/intrinsics.hpp"
+#include "sources/detail/intrinsics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
