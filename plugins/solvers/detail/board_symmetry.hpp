@@ -13,9 +13,9 @@ namespace petal {
 /// permutation[i] is the LiDAR corner that lies where corner i lies before the rotation.
 using CornerOrder = std::vector<std::size_t>;
 
-/// The rotations in its plane that map a board's corners onto themselves, to within a quarter of
-/// their least distance; the identity first, then by angle. Four for the square board. No mirror
-/// images: both sensors see the front.
+/// The rotations in its plane that map a board's corners onto themselves, to within 0.45 of
+/// their mean distance to the nearest other corner; the identity first, then by angle. Four for the
+/// square board. No mirror images: both sensors see the front.
 std::vector<CornerOrder> board_rotations(const std::vector<Eigen::Vector3d>& corners);
 
 }  // namespace petal
