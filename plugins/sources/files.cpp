@@ -10,8 +10,8 @@
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/truth.hpp"
 #include "petal/calibration/truth_json.hpp"
+#include "petal/rawlog/input_file.hpp"
 #include "sources/detail/cloud_file.hpp"
-#include "sources/detail/input_file.hpp"
 #include "sources/detail/intrinsics.hpp"
 #include "sources/detail/scene_name.hpp"
 

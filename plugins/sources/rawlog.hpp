@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "petal/rawlog/rawlog_reader.hpp"
 #include "petal/run.hpp"
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
-#include "sources/detail/rawlog_reader.hpp"
 #include "sources/detail/scene_builder.hpp"
 
 namespace petal {

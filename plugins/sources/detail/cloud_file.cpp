@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "petal/error.hpp"
-#include "sources/detail/input_file.hpp"
+#include "petal/rawlog/input_file.hpp"
 #include "sources/detail/text_numbers.hpp"
 
 namespace petal {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "petal/error.hpp"
-#include "sources/detail/input_file.hpp"
+#include "petal/rawlog/input_file.hpp"
 #include "sources/detail/text_numbers.hpp"
 
 namespace petal {

@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "petal/error.hpp"
-#include "sources/detail/lidar_points.hpp"
+#include "petal/rawlog/lidar_points.hpp"
 
 namespace petal {
 namespace {

@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "petal/error.hpp"
-#include "sources/detail/input_file.hpp"
+#include "petal/rawlog/input_file.hpp"
 
 namespace petal {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "sources/detail/gzip_input.hpp"
+#include "petal/rawlog/gzip_input.hpp"
 
 namespace petal {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sources/detail/gzip_input.hpp"
+#include "petal/rawlog/gzip_input.hpp"
 
 #include <algorithm>
 
 #include "petal/error.hpp"
-#include "sources/detail/input_file.hpp"
+#include "petal/rawlog/input_file.hpp"
 
 namespace petal {
 

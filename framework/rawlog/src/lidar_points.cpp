@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sources/detail/lidar_points.hpp"
+#include "petal/rawlog/lidar_points.hpp"
 
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>

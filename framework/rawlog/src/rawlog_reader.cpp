@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sources/detail/rawlog_reader.hpp"
+#include "petal/rawlog/rawlog_reader.hpp"
 
 #include <mrpt/obs/CAction.h>
 #include <mrpt/obs/CActionCollection.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sources/detail/input_file.hpp"
+#include "petal/rawlog/input_file.hpp"
 
 #include <fstream>
 #include <system_error>
