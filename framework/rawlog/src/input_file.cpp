@@ -21,6 +21,9 @@ void require_file(const fs::path& file, const std::string& what) {
                                         : std::string()));
     if (fs::is_directory(status))
         throw Error(what + " " + file.string() + " is a folder; name a file in it");
+    // A pipe would block here, and cannot be read twice (its checksum goes into run.json).
+    if (!fs::is_regular_file(status))
+        throw Error(what + " " + file.string() + " is a pipe or a device; name a regular file");
     if (!std::ifstream(file, std::ios::binary))
         throw Error(what + " " + file.string() + " cannot be opened; check its permissions");
 }

@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -66,19 +67,31 @@ void RawlogReader::fail(const std::string& what) const {
 
 mrpt::obs::CObservation::Ptr RawlogReader::next() {
     while (pending_.empty()) {
-        stream_.begin_object();
-        if (stream_.at_end()) {
-            if (!stream_.failure().empty()) fail(stream_.failure() + "; copy the file again");
-            return nullptr;
-        }
-        read_object();
+        const auto object = next_object();
+        if (!object) return nullptr;
+        if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+            return observation;
+        if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+            for (const auto& each : *frame)
+                if (each) pending_.push_back(each);
     }
     mrpt::obs::CObservation::Ptr observation = std::move(pending_.front());
     pending_.pop_front();
     return observation;
 }
 
-void RawlogReader::read_object() {
+mrpt::serialization::CSerializable::Ptr RawlogReader::next_object() {
+    while (true) {
+        stream_.begin_object();
+        if (stream_.at_end()) {
+            if (!stream_.failure().empty()) fail(stream_.failure() + "; copy the file again");
+            return nullptr;
+        }
+        if (auto object = read_object()) return object;
+    }
+}
+
+mrpt::serialization::CSerializable::Ptr RawlogReader::read_object() {
     mrpt::serialization::CSerializable::Ptr object;
     try {
         auto archive = mrpt::serialization::archiveFrom(stream_);
@@ -99,21 +112,16 @@ void RawlogReader::read_object() {
         fail("it is damaged inside " + where + " (" + first_lines(e.what()) +
              "); copy the file again");
     }
-    if (object) {
-        using namespace mrpt::obs;
-        if (auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
-            pending_.push_back(std::move(observation));
-        } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
-            for (const auto& each : *frame)
-                if (each) pending_.push_back(each);
-        } else if (!std::dynamic_pointer_cast<CActionCollection>(object) &&
-                   !std::dynamic_pointer_cast<CAction>(object)) {
-            fail(std::string("a ") + object->GetRuntimeClass()->className + " at byte " +
-                 std::to_string(stream_.object_begin()) +
-                 " is neither observation, action nor sensory frame");
-        }
-    }
+    using namespace mrpt::obs;
+    if (object && !std::dynamic_pointer_cast<CObservation>(object) &&
+        !std::dynamic_pointer_cast<CSensoryFrame>(object) &&
+        !std::dynamic_pointer_cast<CActionCollection>(object) &&
+        !std::dynamic_pointer_cast<CAction>(object))
+        fail(std::string("a ") + object->GetRuntimeClass()->className + " at byte " +
+             std::to_string(stream_.object_begin()) +
+             " is neither observation, action nor sensory frame");
     ++objects_;
+    return object;
 }
 
 fs::path RawlogReader::find_external(const std::string& name, const std::string& label) const {
@@ -134,21 +142,29 @@ fs::path RawlogReader::find_external(const std::string& name, const std::string&
                 "); put the file back beside the rawlog");
 }
 
+void RawlogReader::load_image(mrpt::img::CImage& image, const std::string& label) {
+    if (!image.isExternallyStored()) return;
+    const fs::path file = find_external(image.getExternalStorageFile(), label);
+    // Into a new image: MRPT would look in one folder for the whole process.
+    mrpt::img::CImage loaded;
+    if (!loaded.loadFromFile(file.string()))
+        throw Error("image " + file.string() + " of sensor '" + label + "' cannot be decoded");
+    image = loaded;
+    external_files_.push_back(file);
+}
+
 void RawlogReader::load(mrpt::obs::CObservation& observation) {
     using namespace mrpt::obs;
     const std::string& label = observation.sensorLabel;
     try {
-        if (auto* image = dynamic_cast<CObservationImage*>(&observation);
-            image != nullptr && image->image.isExternallyStored()) {
-            const fs::path file = find_external(image->image.getExternalStorageFile(), label);
-            // Into a new image: MRPT would look in one folder for the whole process.
-            mrpt::img::CImage loaded;
-            if (!loaded.loadFromFile(file.string()))
-                throw Error("image " + file.string() + " of sensor '" + label +
-                            "' cannot be decoded");
-            image->image = loaded;
-            external_files_.push_back(file);
-        }
+        if (auto* image = dynamic_cast<CObservationImage*>(&observation))
+            load_image(image->image, label);
+        if (auto* stereo = dynamic_cast<CObservationStereoImages*>(&observation))
+            for (auto* image : {&stereo->imageLeft, &stereo->imageRight, &stereo->imageDisparity})
+                load_image(*image, label);
+        if (auto* range = dynamic_cast<CObservation3DRangeScan*>(&observation))
+            for (auto* image : {&range->intensityImage, &range->confidenceImage})
+                load_image(*image, label);
         if (auto* cloud = dynamic_cast<CObservationPointCloud*>(&observation)) {
             if (cloud->isExternallyStored() && !cloud->pointcloud) {
                 const fs::path file = find_external(cloud->getExternalStorageFile(), label);

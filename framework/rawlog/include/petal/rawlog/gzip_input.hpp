@@ -9,15 +9,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace petal {
 
-/// A file as MRPT reads it, compressed with gzip or not, that knows where and why reading ended.
-/// (MRPT's own stream takes a file that was cut off, or whose checksum is wrong, for one that
-/// ends.)
+/// A file as MRPT reads it, compressed with gzip (one member or several) or not, that knows where
+/// and why reading ended. (MRPT's own stream, as zlib's gzread, takes a file that was cut off,
+/// whose checksum is wrong, or that something else follows, for one that ends.)
 class GzipInput final : public mrpt::io::CStream {
    public:
-    /// \throws Error when there is no such file or it cannot be opened.
+    /// \throws Error when there is no such file, it is no regular file, or it cannot be opened.
     explicit GzipInput(const std::filesystem::path& file);
     ~GzipInput() override;
     GzipInput(const GzipInput&) = delete;
@@ -33,6 +34,12 @@ class GzipInput final : public mrpt::io::CStream {
     std::uint64_t object_begin() const { return object_begin_; }
     const std::string& head() const { return head_; }
 
+    bool compressed() const { return compressed_; }
+    std::uint64_t file_size() const { return file_size_; }  ///< bytes as it lies on the disk
+    /// No more bytes than these can follow: exact for a plain file; for a compressed one what
+    /// deflate could make of the rest of it at its very best (1032 to 1).
+    std::uint64_t can_follow() const;
+
     /// Fills the buffer. Returns fewer bytes only where the file ends, which failure() then tells.
     size_t Read(void* buffer, size_t count) override;
     /// Bytes read so far, uncompressed.
@@ -45,10 +52,25 @@ class GzipInput final : public mrpt::io::CStream {
     std::string getStreamDescription() const override;
 
    private:
-    void note_failure(const std::string& otherwise);
+    /// Reads more of the file where none is left. False at its end, or where reading failed.
+    bool have_input();
+    /// Up to `count` uncompressed bytes. 0 at the end, sound or not.
+    size_t produce(unsigned char* to, size_t count);
+    size_t produce_inflated(unsigned char* to, size_t count);
+    void begin_member();
 
     std::filesystem::path file_;
-    gzFile handle_ = nullptr;
+    int descriptor_ = -1;
+    std::uint64_t file_size_ = 0;
+    std::uint64_t taken_ = 0;  ///< bytes of the file that were read from the disk
+    bool compressed_ = false;
+    bool in_member_ = false;  ///< between a gzip header and its trailer
+    bool inflating_ = false;  ///< inflater_ is set up
+    z_stream inflater_ = {};
+    std::vector<unsigned char> input_;   ///< as on the disk; inflater_ points into it
+    std::vector<unsigned char> output_;  ///< uncompressed, for the many small reads
+    std::size_t next_ = 0;               ///< in output_: [next_, end_) is not read yet
+    std::size_t end_ = 0;
     std::uint64_t position_ = 0;
     std::uint64_t object_begin_ = 0;
     std::string head_;

@@ -8,7 +8,7 @@
 
 namespace petal {
 
-/// \throws Error naming `what` and the file: absent, a folder, unreadable.
+/// \throws Error naming `what` and the file: absent, a folder, a pipe, unreadable.
 void require_file(const std::filesystem::path& file, const std::string& what);
 
 /// The bytes of a file. \throws Error as require_file, and when reading fails half-way.

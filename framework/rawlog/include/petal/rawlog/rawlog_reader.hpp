@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/serialization/CSerializable.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +31,11 @@ class RawlogReader {
     /// class that this MRPT does not know, no rawlog.
     mrpt::obs::CObservation::Ptr next();
 
+    /// The next object as it stands in the file: an observation, a whole sensory frame, or an
+    /// action; null after the last. In place of next(), not between its calls.
+    /// \throws Error as next().
+    mrpt::serialization::CSerializable::Ptr next_object();
+
     /// Loads what an observation keeps in files of their own: looked for in the rawlog's image
     /// folder (`<stem>_Images`, `<stem>_images`, `Images`), then beside the rawlog. The
     /// observation then holds it.
@@ -41,7 +48,8 @@ class RawlogReader {
     const std::vector<std::filesystem::path>& external_files() const { return external_files_; }
 
    private:
-    void read_object();
+    mrpt::serialization::CSerializable::Ptr read_object();
+    void load_image(mrpt::img::CImage& image, const std::string& label);
     [[noreturn]] void fail(const std::string& what) const;
     std::filesystem::path find_external(const std::string& name, const std::string& label) const;
 
