@@ -10,6 +10,7 @@
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/truth.hpp"
 #include "petal/calibration/truth_json.hpp"
+#include "petal/rawlog/sensor_label.hpp"
 #include "sources/detail/scene_name.hpp"
 
 namespace petal {

@@ -3,14 +3,13 @@
 
 #include "sources/detail/scene_builder.hpp"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "petal/error.hpp"
 #include "petal/rawlog/lidar_points.hpp"
+#include "petal/rawlog/sensor_label.hpp"
 
 namespace petal {
 namespace {
@@ -27,19 +26,10 @@ double sharpness(const cv::Mat& image) {
     return deviation[0] * deviation[0];
 }
 
-bool fits_any(const std::vector<std::string>& patterns, const std::string& label) {
-    return std::any_of(patterns.begin(), patterns.end(),
-                       [&](const std::string& pattern) { return label_fits(pattern, label); });
-}
-
 }  // namespace
 
-bool label_fits(const std::string& pattern, const std::string& label) {
-    return pattern == label || fnmatch(pattern.c_str(), label.c_str(), 0) == 0;
-}
-
 bool SensorChoice::takes_camera(const std::string& label) const {
-    return cameras.empty() || fits_any(cameras, label);
+    return cameras.empty() || label_fits_any(cameras, label);
 }
 
 void SensorList::add(const mrpt::obs::CObservation& observation) {

@@ -87,7 +87,4 @@ class SceneBuilder {
     double stamp_ = 0.0;
 };
 
-/// Whether a label is that one, or fits it as a shell pattern (`*`, `?`, `[...]`).
-bool label_fits(const std::string& pattern, const std::string& label);
-
 }  // namespace petal
