@@ -53,62 +53,88 @@ void write_whole(const fs::path& path, const std::function<void(const fs::path&)
 
 }  // namespace
 
-bool Firing::wired(std::string_view port) const {
-    return inputs_.find(port) != inputs_.end();
+Firing::Firing(const StageSpec& spec, const std::string& id, std::shared_ptr<const FrameInfo> frame,
+               std::uint64_t number, PortPackets inputs, RunServices& services)
+    : spec_(spec),
+      id_(id),
+      shared_frame_(std::move(frame)),
+      inputs_(std::move(inputs)),
+      services_(services),
+      outputs_(spec.outputs.size()) {
+    own_frame_.number = number;
 }
 
-AnyPacket Firing::input(std::string_view port) const {
-    const auto found = inputs_.find(port);
-    if (found == inputs_.end() || found->second.empty())
+const PortInput* Firing::find_input(std::string_view port) const {
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+        if (spec_.inputs[i].name == port) return inputs_[i].wired ? &inputs_[i] : nullptr;
+    return nullptr;
+}
+
+bool Firing::wired(std::string_view port) const {
+    return find_input(port) != nullptr;
+}
+
+const AnyPacket& Firing::input(std::string_view port) const {
+    const PortInput* found = find_input(port);
+    if (found == nullptr || found->packets.empty())
         throw Error("input port '" + std::string(port) +
                     "' is not wired; wire it, or ask wired() first");
-    return found->second.front();
+    return found->packets.front();
 }
 
-std::vector<AnyPacket> Firing::inputs(std::string_view port) const {
-    const auto found = inputs_.find(port);
-    return found == inputs_.end() ? std::vector<AnyPacket>{} : found->second;
+const std::vector<AnyPacket>& Firing::inputs(std::string_view port) const {
+    static const std::vector<AnyPacket> kNone;
+    const PortInput* found = find_input(port);
+    return found == nullptr ? kNone : found->packets;
 }
 
 void Firing::publish(std::string_view port, AnyPacket packet) {
-    const std::string name(port);
-    const PortSpec* declared = spec_.find_output(name);
-    if (declared == nullptr)
-        throw Error("the stage wrote on port '" + name +
+    std::size_t index = 0;
+    while (index < spec_.outputs.size() && spec_.outputs[index].name != port) ++index;
+    if (index == spec_.outputs.size())
+        throw Error("the stage wrote on port '" + std::string(port) +
                     "', which it does not declare as an output");
-    if (!packet.holds(declared->type))
+    const PortSpec& declared = spec_.outputs[index];
+    if (!packet.holds(declared.type))
         throw Error("the stage wrote " + std::string(packet ? packet.type : "no value") +
-                    " on port '" + name + "', which it declares as " + declared->type);
-    if (!outputs_.emplace(name, std::move(packet)).second)
-        throw Error("the stage wrote port '" + name + "' twice for one frame");
+                    " on port '" + declared.name + "', which it declares as " + declared.type);
+    if (outputs_[index])
+        throw Error("the stage wrote port '" + declared.name + "' twice for one frame");
+    outputs_[index] = std::move(packet);
 }
 
-std::map<std::string, AnyPacket> Firing::take_outputs() {
+const std::string* Firing::written_port() const {
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+        if (outputs_[i]) return &spec_.outputs[i].name;
+    return nullptr;
+}
+
+OutputPackets Firing::take_outputs() {
     if (ended_) {
-        if (!outputs_.empty())
-            throw Error("the stage wrote port '" + outputs_.begin()->first +
-                        "' in the call that ended its data");
+        if (const std::string* port = written_port())
+            throw Error("the stage wrote port '" + *port + "' in the call that ended its data");
         return {};
     }
-    for (const PortSpec& port : spec_.outputs)
-        if (outputs_.count(port.name) == 0)
-            throw Error("the stage wrote no packet on port '" + port.name +
-                        "'; a stage that finds nothing writes an empty " + port.type);
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+        if (!outputs_[i])
+            throw Error("the stage wrote no packet on port '" + spec_.outputs[i].name +
+                        "'; a stage that finds nothing writes an empty " + spec_.outputs[i].type);
     // Last: a source may name its frame before or after it writes.
-    for (auto& [port, packet] : outputs_) packet.frame = frame_;
+    if (!shared_frame_) shared_frame_ = std::make_shared<const FrameInfo>(own_frame_);
+    for (AnyPacket& packet : outputs_) packet.frame = shared_frame_;
     return std::move(outputs_);
 }
 
 void Firing::expect_no_outputs() const {
-    if (!outputs_.empty())
-        throw Error("the stage wrote port '" + outputs_.begin()->first +
+    if (const std::string* port = written_port())
+        throw Error("the stage wrote port '" + *port +
                     "' in finish(), where nobody can read it; only stages that gather write there");
 }
 
 void Firing::set_frame(std::string name, double stamp) {
     if (!spec_.is_source()) throw Error("set_frame() is for sources: this stage has inputs");
-    frame_.name = std::move(name);
-    frame_.stamp = stamp;
+    own_frame_.name = std::move(name);
+    own_frame_.stamp = stamp;
 }
 
 void Firing::end_of_data() {
@@ -118,7 +144,7 @@ void Firing::end_of_data() {
 
 Rng& Firing::rng() {
     if (!rng_) {
-        const std::uint64_t parts[] = {services_.seed(), stable_hash(id_), frame_.number};
+        const std::uint64_t parts[] = {services_.seed(), stable_hash(id_), frame().number};
         std::vector<std::uint32_t> words;
         for (const std::uint64_t part : parts) {
             words.push_back(static_cast<std::uint32_t>(part));
@@ -135,7 +161,7 @@ void Firing::log(LogLevel level, const std::string& message) {
 }
 
 void Firing::note(const Note& note) {
-    services_.note(id_, frame_, note);
+    services_.note(id_, frame(), note);
 }
 
 void Firing::verdict(Level level, const std::vector<std::string>& reasons) {
@@ -143,7 +169,7 @@ void Firing::verdict(Level level, const std::vector<std::string>& reasons) {
 }
 
 void Firing::save(const std::string& name, const std::function<void(const fs::path&)>& writer) {
-    const fs::path folder = services_.folder() / "stages" / id_ / as_folder(frame_);
+    const fs::path folder = services_.folder() / "stages" / id_ / as_folder(frame());
     write_whole(folder / relative_inside(folder, name), writer);
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +26,8 @@ class RunServices {
     virtual void note(const std::string& stage, const FrameInfo& frame, const Note& note) = 0;
     virtual void verdict(const std::string& stage, Level level,
                          const std::vector<std::string>& reasons) = 0;
+    virtual void progress(const std::string& stage, double done, double total,
+                          std::string_view unit) = 0;
     virtual void used_file(const std::filesystem::path& path) = 0;
     /// A stage is about to write the product `name`, relative to the folder.
     /// \throws Error when the name is the run's own, or was claimed before.
@@ -37,22 +39,26 @@ class RunServices {
     virtual const std::filesystem::path& folder() const = 0;
 };
 
-/// The packets that a firing sees: for each wired port the packets of its wires, in order.
-using PortPackets = std::map<std::string, std::vector<AnyPacket>, std::less<>>;
+/// The packets that a firing sees, for each input port in the order of the declaration: those of
+/// its wires, in order.
+struct PortInput {
+    bool wired = false;
+    std::vector<AnyPacket> packets;
+};
+using PortPackets = std::vector<PortInput>;
+/// What a firing wrote, for each output port in the order of the declaration.
+using OutputPackets = std::vector<AnyPacket>;
 
 /// One call of a stage's run() or finish(): its packets in, its packets out.
 class Firing final : public Run {
    public:
-    Firing(const StageSpec& spec, const std::string& id, FrameInfo frame, PortPackets inputs,
-           RunServices& services)
-        : spec_(spec),
-          id_(id),
-          frame_(std::move(frame)),
-          inputs_(std::move(inputs)),
-          services_(services) {}
+    /// `frame` is that of the inputs; where it is null the firing has a frame of its own, `number`.
+    /// \pre one entry of `inputs` a declared port.
+    Firing(const StageSpec& spec, const std::string& id, std::shared_ptr<const FrameInfo> frame,
+           std::uint64_t number, PortPackets inputs, RunServices& services);
 
     bool wired(std::string_view port) const override;
-    const FrameInfo& frame() const override { return frame_; }
+    const FrameInfo& frame() const override { return shared_frame_ ? *shared_frame_ : own_frame_; }
     void set_frame(std::string name, double stamp) override;
     void end_of_data() override;
     Rng& rng() override;
@@ -61,6 +67,9 @@ class Firing final : public Run {
     void log(LogLevel level, const std::string& message) override;
     void note(const Note& note) override;
     void verdict(Level level, const std::vector<std::string>& reasons) override;
+    void progress(double done, double total, std::string_view unit) override {
+        services_.progress(id_, done, total, unit);
+    }
     void used_file(const std::filesystem::path& path) override { services_.used_file(path); }
     bool debug() const override { return services_.debug(id_); }
     void save(const std::string& name,
@@ -71,25 +80,31 @@ class Firing final : public Run {
 
     /// True once a source said that there are no more frames.
     bool ended() const { return ended_; }
-    /// What was written, by port. \throws Error unless every output port was written (none, where a
-    /// source ended).
-    std::map<std::string, AnyPacket> take_outputs();
+    /// What was written. Empty where a source ended. \throws Error unless every output port was
+    /// written (none, where a source ended).
+    OutputPackets take_outputs();
     /// \throws Error when something was written: finish() of a stage that does not gather has no
     /// ports.
     void expect_no_outputs() const;
 
    protected:
-    AnyPacket input(std::string_view port) const override;
-    std::vector<AnyPacket> inputs(std::string_view port) const override;
+    const AnyPacket& input(std::string_view port) const override;
+    const std::vector<AnyPacket>& inputs(std::string_view port) const override;
     void publish(std::string_view port, AnyPacket packet) override;
 
    private:
+    /// The port's entry, or null where it is not wired.
+    const PortInput* find_input(std::string_view port) const;
+    /// The name of a port that was written; null where none was.
+    const std::string* written_port() const;
+
     const StageSpec& spec_;
     const std::string& id_;
-    FrameInfo frame_;
+    std::shared_ptr<const FrameInfo> shared_frame_;  ///< of the inputs; may be null
+    FrameInfo own_frame_;                            ///< where it is
     PortPackets inputs_;
     RunServices& services_;
-    std::map<std::string, AnyPacket> outputs_;
+    OutputPackets outputs_;
     std::optional<Rng> rng_;
     bool ended_ = false;
 };

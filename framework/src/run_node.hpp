@@ -3,9 +3,10 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,17 +27,23 @@ class RunNode {
     /// Where an output's packets go.
     struct Consumer {
         RunNode* node = nullptr;
-        std::string port;
+        std::size_t port = 0;  ///< index in its declaration
         std::size_t wire = 0;  ///< index among the port's wires
     };
 
-    explicit RunNode(const StageNode& definition);
+    /// `index`: the node's place among the run's.
+    RunNode(const StageNode& definition, std::size_t index);
 
     const StageNode& definition() const { return definition_; }
     const StageSpec& spec() const { return *definition_.spec; }
     Stage& stage() { return *stage_; }
     StageStatistics& statistics() { return statistics_; }
-    std::map<std::string, std::vector<Consumer>>& consumers() { return consumers_; }
+    std::size_t index() const { return index_; }
+    /// By output port, as declared.
+    const std::vector<std::vector<Consumer>>& consumers() const { return consumers_; }
+    /// Connects an output port of this node with what reads it. \pre both ports are declared.
+    void connect(const std::string& port, RunNode& reader, const std::string& reader_port,
+                 std::size_t wire);
 
     /// What the node can do next.
     enum class Work { none, run, finish };
@@ -44,10 +51,11 @@ class RunNode {
     Work next_work() const;
     /// The packets of the next firing, taken out of what waits.
     PortPackets take_inputs(Work work);
-    FrameInfo next_frame(const PortPackets& inputs) const;
+    /// The frame of these inputs; null for a source, and where the node fires once.
+    std::shared_ptr<const FrameInfo> frame_of(const PortPackets& inputs) const;
 
-    void deliver(const std::string& port, std::size_t wire, AnyPacket packet);
-    void wire_ended(const std::string& port, std::size_t wire, std::uint64_t frames);
+    void deliver(const Consumer& to, AnyPacket packet);
+    void wire_ended(const Consumer& to, std::uint64_t frames);
     void ran() { ++fired_; }
     void source_ended() { source_ended_ = true; }
     void finished() { finished_ = true; }
@@ -57,14 +65,24 @@ class RunNode {
     bool is_source() const { return spec().is_source(); }
     bool gathers() const { return gathers_; }
 
-    bool busy = false;  ///< a task holds the node
+    /// A firing took so long.
+    void took(double wall_s) { cost_s_ = std::max(wall_s, 0.75 * cost_s_); }
+    /// What the next run() may take: the longest of the last ones, the older the less. At first as
+    /// if long.
+    double cost_s() const { return cost_s_; }
+
+    bool busy = false;    ///< waits to fire, or fires
+    bool firing = false;  ///< fires
 
    private:
-    /// What has come over one wire and was not used yet.
+    /// What has come over one wire and was not used yet. Packets come frame by frame, none is left
+    /// out: the first that waits is that of frame fired_ (of frame 0 where the node gathers).
     struct WireState {
-        std::map<std::uint64_t, AnyPacket> waiting;  ///< by frame
-        std::optional<std::uint64_t> ended;          ///< after so many frames
+        std::deque<AnyPacket> waiting;
+        std::optional<std::uint64_t> ended;  ///< after so many frames
     };
+    /// The wires of one input port; none where it is not wired.
+    using PortWires = std::vector<WireState>;
 
     bool gathered_all() const;
     /// \throws Error when one wire ended and another holds, or ended after, more frames. As early
@@ -72,10 +90,13 @@ class RunNode {
     void check_lengths() const;
 
     const StageNode& definition_;
+    std::size_t index_;
     std::unique_ptr<Stage> stage_;
-    std::map<std::string, std::vector<WireState>> wires_;
-    std::map<std::string, std::vector<Consumer>> consumers_;
+    std::vector<PortWires> ports_;  ///< by input port, as declared
+    std::size_t first_port_ = 0;    ///< the wired one whose packets name the frame
+    std::vector<std::vector<Consumer>> consumers_;
     StageStatistics statistics_;
+    double cost_s_ = 1.0;
     std::uint64_t fired_ = 0;
     bool gathers_ = false;
     bool source_ended_ = false;

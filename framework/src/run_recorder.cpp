@@ -25,6 +25,18 @@ void RunRecorder::verdict(const std::string& stage, Level level,
     verdicts_.push_back({stage, level, reasons});
 }
 
+void RunRecorder::progress(const std::string& stage, double done, double total,
+                           std::string_view unit) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    progress_[stage] = {done, total, std::string(unit)};
+}
+
+SourceProgress RunRecorder::progress_of(const std::string& stage) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = progress_.find(stage);
+    return found == progress_.end() ? SourceProgress{} : found->second;
+}
+
 void RunRecorder::used_file(const std::filesystem::path& path) {
     const std::lock_guard<std::mutex> lock(mutex_);
     used_files_.insert(path.lexically_normal());

@@ -11,6 +11,7 @@
 
 #include "firing.hpp"
 #include "run_log.hpp"
+#include "run_progress.hpp"
 #include "run_report.hpp"
 #include "runner.hpp"
 
@@ -27,6 +28,8 @@ class RunRecorder final : public RunServices {
     void note(const std::string& stage, const FrameInfo& frame, const Note& note) override;
     void verdict(const std::string& stage, Level level,
                  const std::vector<std::string>& reasons) override;
+    void progress(const std::string& stage, double done, double total,
+                  std::string_view unit) override;
     void used_file(const std::filesystem::path& path) override;
     void claim_product(const std::string& stage, const std::filesystem::path& name) override;
     bool debug(const std::string& stage) const override;
@@ -35,6 +38,9 @@ class RunRecorder final : public RunServices {
     std::uint64_t seed() const override { return seed_; }
     const std::filesystem::path& folder() const override { return settings_.folder; }
 
+    /// What the stage told last.
+    SourceProgress progress_of(const std::string& stage) const;
+
     /// Moves all that was told into the report. Call it when no stage fires any more.
     void fill(RunReport& report, const Pipeline& pipeline);
 
@@ -42,7 +48,8 @@ class RunRecorder final : public RunServices {
     const RunSettings& settings_;
     std::uint64_t seed_;
     RunLog& log_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
+    std::map<std::string, SourceProgress> progress_;
     std::vector<ToldNote> notes_;
     std::vector<ToldVerdict> verdicts_;
     std::set<std::filesystem::path> used_files_;

@@ -34,12 +34,13 @@ struct FrameInfo {
 template <class T>
 struct PacketTraits;
 
-/// A value of any type on a wire: immutable, shared, with its frame. Copying it copies a pointer.
+/// A value of any type on a wire: immutable, shared, with its frame. Copying it copies pointers.
 struct AnyPacket {
     std::shared_ptr<const void> value;
     const char* type = "";
     std::size_t bytes = 0;
-    FrameInfo frame;
+    std::shared_ptr<const FrameInfo> frame;  ///< one for all packets of a frame; null before
+                                             ///< the framework has published the packet
 
     explicit operator bool() const { return value != nullptr; }
     bool holds(std::string_view type_name) const { return value && type_name == type; }
@@ -55,14 +56,21 @@ struct Packet {
     const T* operator->() const { return value.get(); }
 };
 
-/// Seals `value` and makes a packet of it. The value is moved, never copied.
+/// Seals `value` and makes a packet of it, of no frame yet. The value is moved, never copied.
 template <class T>
-AnyPacket make_packet(T value, FrameInfo frame) {
+AnyPacket make_packet(T value) {
     auto owned = std::make_shared<T>(std::move(value));
     PacketTraits<T>::seal(*owned);
     const std::size_t bytes = PacketTraits<T>::bytes(*owned);
     return AnyPacket{std::shared_ptr<const void>(std::move(owned)), PacketTraits<T>::name, bytes,
-                     std::move(frame)};
+                     nullptr};
+}
+/// The same, as a packet of that frame.
+template <class T>
+AnyPacket make_packet(T value, FrameInfo frame) {
+    AnyPacket packet = make_packet(std::move(value));
+    packet.frame = std::make_shared<const FrameInfo>(std::move(frame));
+    return packet;
 }
 
 }  // namespace petal

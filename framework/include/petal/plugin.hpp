@@ -17,7 +17,7 @@
 namespace petal {
 
 /// Raised whenever a header in petal/ changes what a compiled plugin relies on.
-constexpr std::uint32_t kFrameworkAbi = 1;
+constexpr std::uint32_t kFrameworkAbi = 2;
 
 /// Lies in the ELF section `.petal.plugin` of every plugin and is read from the file before the
 /// library is opened (opening it would run its static constructors).

@@ -48,12 +48,12 @@ class Run {
     /// The packet on a reads() port. \throws Error when an optional port is not wired.
     template <class T>
     const T& in(std::string_view port) const {
-        return *in_ptr<T>(port);
+        return *static_cast<const T*>(checked<T>(port, input(port)).value.get());
     }
     /// The same, shared: to keep it, or to hand it on with forward().
     template <class T>
     std::shared_ptr<const T> in_ptr(std::string_view port) const {
-        return cast<T>(port, input(port));
+        return std::static_pointer_cast<const T>(checked<T>(port, input(port)).value);
     }
     /// Null where an optional port is not wired.
     template <class T>
@@ -65,7 +65,8 @@ class Run {
     std::vector<Packet<T>> all(std::string_view port) const {
         std::vector<Packet<T>> packets;
         for (const AnyPacket& any : inputs(port))
-            packets.push_back({cast<T>(port, any), any.frame});
+            packets.push_back({std::static_pointer_cast<const T>(checked<T>(port, any).value),
+                               any.frame ? *any.frame : FrameInfo{}});
         return packets;
     }
     virtual bool wired(std::string_view port) const = 0;
@@ -73,7 +74,7 @@ class Run {
     /// Publishes a value on an output port: sealed, then shared. Pass it with std::move.
     template <class T>
     void write(std::string_view port, T value) {
-        publish(port, make_packet(std::move(value), frame()));
+        publish(port, make_packet(std::move(value)));
     }
     /// Publishes a value that is shared already (an input passed on): no copy.
     template <class T>
@@ -81,7 +82,7 @@ class Run {
         if (!value)
             throw Error("forward() on port '" + std::string(port) + "' was given no packet");
         const std::size_t bytes = PacketTraits<T>::bytes(*value);
-        publish(port, AnyPacket{std::move(value), PacketTraits<T>::name, bytes, frame()});
+        publish(port, AnyPacket{std::move(value), PacketTraits<T>::name, bytes, nullptr});
     }
 
     /// The frame in work. In finish() it has no name.
@@ -108,6 +109,10 @@ class Run {
     virtual void note(const Note& note) = 0;
     /// How far the result can be used, and why. One call a run for each stage that judges.
     virtual void verdict(Level level, const std::vector<std::string>& reasons) = 0;
+    /// A source tells how far it is, e.g. progress(3, 40, "files"), for the remaining time that a
+    /// terminal shows; bytes are told as "B". Cheap: once a frame will do. `total` is 0 where it is
+    /// not known.
+    virtual void progress(double done, double total, std::string_view unit) = 0;
     /// Records a file that the result depends on: run.json tells its checksum.
     virtual void used_file(const std::filesystem::path& path) = 0;
 
@@ -129,17 +134,18 @@ class Run {
     virtual std::filesystem::path output_path(const std::filesystem::path& name) = 0;
 
    protected:
-    virtual AnyPacket input(std::string_view port) const = 0;
-    virtual std::vector<AnyPacket> inputs(std::string_view port) const = 0;
+    /// These live as long as the firing.
+    virtual const AnyPacket& input(std::string_view port) const = 0;
+    virtual const std::vector<AnyPacket>& inputs(std::string_view port) const = 0;
     virtual void publish(std::string_view port, AnyPacket packet) = 0;
 
    private:
     template <class T>
-    static std::shared_ptr<const T> cast(std::string_view port, const AnyPacket& any) {
+    static const AnyPacket& checked(std::string_view port, const AnyPacket& any) {
         if (!any.holds(PacketTraits<T>::name))
             throw Error("port '" + std::string(port) + "' holds " + (any ? any.type : "no packet") +
                         ", the stage asked for " + PacketTraits<T>::name);
-        return std::static_pointer_cast<const T>(any.value);
+        return any;
     }
 };
 

@@ -44,6 +44,10 @@ struct StageHarness::State : RunServices {
         told_level = level;
         reasons = why;
     }
+    void progress(const std::string&, double done, double total, std::string_view unit) override {
+        const std::lock_guard<std::mutex> lock(mutex);
+        told_progress.push_back({done, total, std::string(unit)});
+    }
     void used_file(const fs::path& path) override {
         const std::lock_guard<std::mutex> lock(mutex);
         used_files.push_back(path);
@@ -84,16 +88,17 @@ struct StageHarness::State : RunServices {
     std::vector<std::string> reasons;
     std::vector<fs::path> used_files;
     std::set<fs::path> products;
+    std::vector<Progress> told_progress;
     std::optional<Level> told_level;
 
-    void keep(std::map<std::string, AnyPacket> outputs) {
-        for (auto& [port, packet] : outputs) written[port].push_back(std::move(packet));
+    void keep(OutputPackets outputs) {
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+            written[spec.outputs[i].name].push_back(std::move(outputs[i]));
     }
+    PortPackets no_packets() const { return PortPackets(spec.inputs.size()); }
     void fire_source(Stage& stage) {
         for (std::uint64_t number = 0;; ++number) {
-            FrameInfo frame;
-            frame.number = number;
-            Firing firing(spec, id, frame, {}, *this);
+            Firing firing(spec, id, nullptr, number, no_packets(), *this);
             stage.run(firing);
             keep(firing.take_outputs());
             if (firing.ended()) return;
@@ -101,8 +106,12 @@ struct StageHarness::State : RunServices {
     }
     void fire_gathering(Stage& stage) {
         PortPackets inputs;
-        for (const auto& [port, packets] : given) inputs[port] = packets;
-        Firing firing(spec, id, FrameInfo{}, std::move(inputs), *this);
+        for (const PortSpec& port : spec.inputs) {
+            const auto found = given.find(port.name);
+            inputs.push_back({found != given.end(),
+                              found == given.end() ? std::vector<AnyPacket>{} : found->second});
+        }
+        Firing firing(spec, id, nullptr, 0, std::move(inputs), *this);
         stage.finish(firing);
         keep(firing.take_outputs());
     }
@@ -111,14 +120,18 @@ struct StageHarness::State : RunServices {
         for (const auto& [port, packets] : given) frames = std::max(frames, packets.size());
         for (std::size_t k = 0; k < frames; ++k) {
             PortPackets inputs;
-            FrameInfo frame;
-            for (const auto& [port, packets] : given) {
-                if (k >= packets.size())
-                    throw Error("port " + port + " was given fewer packets than others");
-                inputs[port] = {packets[k]};
-                if (frame.name.empty()) frame = packets[k].frame;
+            std::shared_ptr<const FrameInfo> frame;
+            for (const PortSpec& port : spec.inputs) {
+                PortInput& input = inputs.emplace_back();
+                const auto found = given.find(port.name);
+                if (found == given.end()) continue;
+                if (k >= found->second.size())
+                    throw Error("port " + port.name + " was given fewer packets than others");
+                const AnyPacket& packet = found->second[k];
+                input = {true, {packet}};
+                if (packet.frame && (!frame || frame->name.empty())) frame = packet.frame;
             }
-            Firing firing(spec, id, frame, std::move(inputs), *this);
+            Firing firing(spec, id, std::move(frame), k, std::move(inputs), *this);
             stage.run(firing);
             keep(firing.take_outputs());
         }
@@ -167,6 +180,7 @@ void StageHarness::fire() {
     state_->reasons.clear();
     state_->used_files.clear();
     state_->products.clear();
+    state_->told_progress.clear();
     state_->told_level.reset();
     const auto params = state_->params();
     const std::unique_ptr<Stage> stage = state_->spec.make_stage(params.get());
@@ -179,7 +193,7 @@ void StageHarness::fire() {
     } else {
         state_->fire_frames(*stage);
     }
-    Firing last(state_->spec, state_->id, FrameInfo{}, {}, *state_);
+    Firing last(state_->spec, state_->id, nullptr, 0, state_->no_packets(), *state_);
     stage->finish(last);
     last.expect_no_outputs();
 }
@@ -223,6 +237,9 @@ const std::vector<std::string>& StageHarness::reasons() const {
 }
 const std::vector<fs::path>& StageHarness::used_files() const {
     return state_->used_files;
+}
+const std::vector<StageHarness::Progress>& StageHarness::progress() const {
+    return state_->told_progress;
 }
 const fs::path& StageHarness::folder() const {
     return state_->run_folder;

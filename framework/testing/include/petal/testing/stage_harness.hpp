@@ -73,7 +73,7 @@ class StageHarness {
         for (const AnyPacket& any : written(port)) {
             if (!any.holds(PacketTraits<T>::name))
                 throw Error("port " + port + " holds " + any.type);
-            packets.push_back({std::static_pointer_cast<const T>(any.value), any.frame});
+            packets.push_back({std::static_pointer_cast<const T>(any.value), *any.frame});
         }
         return packets;
     }
@@ -93,6 +93,13 @@ class StageHarness {
     std::optional<Level> verdict() const;
     const std::vector<std::string>& reasons() const;
     const std::vector<std::filesystem::path>& used_files() const;
+    /// What Run::progress() was told.
+    struct Progress {
+        double done = 0.0;
+        double total = 0.0;
+        std::string unit;
+    };
+    const std::vector<Progress>& progress() const;
     /// The run folder: save() and output() write below it. Removed with the harness.
     const std::filesystem::path& folder() const;
 
