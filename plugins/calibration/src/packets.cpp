@@ -1,8 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationStereoImages.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <exception>
 
@@ -40,6 +47,38 @@ void warm(const mrpt::img::CImage& image, const std::string& label) {
     }
 }
 
+// Not by setSensorPose(): there are classes that hold several poses, and set all of them to one, or
+// a quaternion, which would be rounded.
+void warm(const mrpt::obs::CObservation& observation) {
+    using namespace mrpt::obs;
+    const std::string& label = observation.sensorLabel;
+    if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+        warm(cloud->sensorPose);
+        if (cloud->pointcloud) warm(*cloud->pointcloud);
+    } else if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) {
+        warm(image->cameraPose);
+        warm(image->image, label);
+    } else if (const auto* stereo = dynamic_cast<const CObservationStereoImages*>(&observation)) {
+        for (const auto* each : {&stereo->imageLeft, &stereo->imageRight, &stereo->imageDisparity})
+            warm(*each, label);
+    } else if (const auto* range = dynamic_cast<const CObservation3DRangeScan*>(&observation)) {
+        warm(range->sensorPose);
+        warm(range->relativePoseIntensityWRTDepth);
+        warm(range->intensityImage, label);
+        warm(range->confidenceImage, label);
+    } else if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) {
+        warm(scan->sensorPose);
+    } else if (const auto* spin = dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+        warm(spin->sensorPose);
+    } else if (const auto* rows = dynamic_cast<const CObservationRotatingScan*>(&observation)) {
+        warm(rows->sensorPose);
+    } else if (const auto* gps = dynamic_cast<const CObservationGPS*>(&observation)) {
+        warm(gps->sensorPose);
+    } else if (const auto* imu = dynamic_cast<const CObservationIMU*>(&observation)) {
+        warm(imu->sensorPose);
+    }
+}
+
 std::size_t heap(const std::string& text) {
     return text.capacity();
 }
@@ -61,6 +100,28 @@ std::size_t heap(const mrpt::maps::CPointsMap& points) {
 
 std::size_t heap(const mrpt::img::CImage& image) {
     return image.isEmpty() ? 0 : image.getHeight() * image.getRowStride();
+}
+
+/// Of the classes that hold much.
+std::size_t heap(const mrpt::obs::CObservation& observation) {
+    using namespace mrpt::obs;
+    std::size_t sum = sizeof(observation) + heap(observation.sensorLabel);
+    if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
+        return sum + (cloud->pointcloud ? heap(*cloud->pointcloud) : 0);
+    if (const auto* image = dynamic_cast<const CObservationImage*>(&observation))
+        return sum + heap(image->image);
+    if (const auto* stereo = dynamic_cast<const CObservationStereoImages*>(&observation))
+        return sum + heap(stereo->imageLeft) + heap(stereo->imageRight) +
+               heap(stereo->imageDisparity);
+    if (const auto* range = dynamic_cast<const CObservation3DRangeScan*>(&observation))
+        return sum + heap(range->intensityImage) + heap(range->confidenceImage) +
+               static_cast<std::size_t>(range->rangeImage.size()) * sizeof(std::uint16_t) +
+               heap(range->points3D_x) + heap(range->points3D_y) + heap(range->points3D_z);
+    if (const auto* spin = dynamic_cast<const CObservationVelodyneScan*>(&observation))
+        return sum + heap(spin->scan_packets) + spin->point_cloud.size() * 4 * sizeof(float);
+    if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation))
+        return sum + scan->getScanSize() * (sizeof(float) + sizeof(char));
+    return sum;
 }
 
 }  // namespace
@@ -185,27 +246,11 @@ void PacketTraits<Observation>::seal(Observation& observation) {
         throw Error("observation '" + it.sensorLabel + "' (" + it.GetRuntimeClass()->className +
                     ") has data in another file that cannot be loaded: " + e.what());
     }
-    // The pose lies in the derived classes, each under its own name: a warm copy in its place does.
-    mrpt::poses::CPose3D pose;
-    it.getSensorPose(pose);
-    warm(pose);
-    it.setSensorPose(pose);
-    if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&it);
-        cloud && cloud->pointcloud)
-        warm(*cloud->pointcloud);
-    if (const auto* image = dynamic_cast<const mrpt::obs::CObservationImage*>(&it))
-        warm(image->image, it.sensorLabel);
+    warm(it);
 }
 
 std::size_t PacketTraits<Observation>::bytes(const Observation& observation) {
-    const mrpt::obs::CObservation& it = *observation.observation;
-    std::size_t sum = sizeof(observation) + sizeof(it) + heap(it.sensorLabel);
-    if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&it);
-        cloud && cloud->pointcloud)
-        sum += heap(*cloud->pointcloud);
-    if (const auto* image = dynamic_cast<const mrpt::obs::CObservationImage*>(&it))
-        sum += heap(image->image);
-    return sum;
+    return sizeof(observation) + heap(*observation.observation);
 }
 
 }  // namespace petal
