@@ -7,6 +7,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal_process.hpp"
 #include "real_data.hpp"
@@ -17,8 +18,6 @@ namespace {
 using nlohmann::json;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
-
-constexpr double kDegrees = 180.0 / M_PI;
 
 Eigen::Isometry3d pose_of(const json& rows) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -17,7 +17,7 @@ namespace petal {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using TargetJson = nlohmann::json;
 using Polygon = std::vector<Eigen::Vector2d>;
 
 /// Two sides nearer than this are the same line: far below what a saw can do, far above rounding.
@@ -92,7 +92,7 @@ class TargetReader {
     explicit TargetReader(fs::path file) : file_(std::move(file)) {}
 
     Target read() const {
-        const Json json = parse();
+        const TargetJson json = parse();
         if (!json.is_object()) fail("a target is a JSON object");
         static const std::set<std::string> known = {"$schema",   "petal_target", "name", "about",
                                                     "thickness", "outline",      "holes"};
@@ -100,11 +100,11 @@ class TargetReader {
             if (known.count(item.key()) == 0)
                 fail("unknown key '" + item.key() +
                      "'; known are petal_target, name, about, thickness, outline, holes");
-        const Json& version = at(json, "petal_target");
+        const TargetJson& version = at(json, "petal_target");
         if (!version.is_number_integer() || version != 1)
             fail("petal_target is the format version and must be 1, not " + version.dump());
         Target target;
-        const Json& name = at(json, "name");
+        const TargetJson& name = at(json, "name");
         if (!name.is_string() || name.get<std::string>().empty())
             fail("name must be a string that is not empty");
         target.name = name.get<std::string>();
@@ -112,7 +112,7 @@ class TargetReader {
         if (target.thickness < 0.0 || target.thickness > kThickest)
             fail("thickness must be 0 to " + std::to_string(kThickest) + " m");
         target.outline = polygon(at(json, "outline"), "outline");
-        const Json& holes = at(json, "holes");
+        const TargetJson& holes = at(json, "holes");
         if (!holes.is_array() || holes.empty())
             fail("holes must be a list of at least one polygon");
         for (std::size_t i = 0; i < holes.size(); ++i)
@@ -126,39 +126,39 @@ class TargetReader {
         throw Error("target file " + file_.string() + ": " + what);
     }
 
-    Json parse() const {
+    TargetJson parse() const {
         std::ifstream stream(file_, std::ios::binary);
         if (!stream) fail("cannot be read (no permission?)");
         std::set<std::string> seen;
         std::string twice;
-        const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-            if (depth == 1 && event == Json::parse_event_t::key &&
+        const auto watch = [&](int depth, TargetJson::parse_event_t event, TargetJson& parsed) {
+            if (depth == 1 && event == TargetJson::parse_event_t::key &&
                 !seen.insert(parsed.get<std::string>()).second)
                 twice = parsed.get<std::string>();
             return true;
         };
-        Json json;
+        TargetJson json;
         try {
-            json = Json::parse(stream, watch, true, true);
-        } catch (const Json::exception& e) {
+            json = TargetJson::parse(stream, watch, true, true);
+        } catch (const TargetJson::exception& e) {
             fail(std::string("is not JSON: ") + e.what());
         }
         if (!twice.empty()) fail("key '" + twice + "' stands there twice");
         return json;
     }
 
-    const Json& at(const Json& json, const char* key) const {
+    const TargetJson& at(const TargetJson& json, const char* key) const {
         const auto found = json.find(key);
         if (found == json.end()) fail(std::string("key '") + key + "' is missing");
         return *found;
     }
 
-    double number(const Json& json, const std::string& key) const {
+    double number(const TargetJson& json, const std::string& key) const {
         if (!json.is_number()) fail(key + " must be a number, not " + json.dump());
         return json.get<double>();
     }
 
-    Polygon polygon(const Json& json, const std::string& key) const {
+    Polygon polygon(const TargetJson& json, const std::string& key) const {
         if (!json.is_array() || json.size() < 3)
             fail(key + " must be a list of at least three points [x, y]");
         Polygon points;

@@ -16,7 +16,7 @@ namespace petal {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using TruthJson = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> kLabels = {"background", "board", "vacant", "other"};
 
@@ -27,10 +27,10 @@ class TruthReader {
     Truth read() const {
         std::ifstream stream(file_, std::ios::binary);
         if (!stream) fail("cannot be read; check its permissions");
-        Json json;
+        TruthJson json;
         try {
-            json = Json::parse(stream);
-        } catch (const Json::exception& e) {
+            json = TruthJson::parse(stream);
+        } catch (const TruthJson::exception& e) {
             fail(std::string("is no JSON: ") + e.what());
         }
         if (!json.is_object()) fail("must be a JSON object");
@@ -39,7 +39,7 @@ class TruthReader {
             truth.T_camera_lidar = pose(json["T_camera_lidar"], "T_camera_lidar");
         if (json.contains("boards")) {
             if (!json["boards"].is_array()) fail("boards must be a list");
-            for (const Json& board : json["boards"])
+            for (const TruthJson& board : json["boards"])
                 truth.boards.push_back(
                     read_board(board, "boards[" + std::to_string(truth.boards.size()) + "]"));
         }
@@ -51,7 +51,7 @@ class TruthReader {
         throw Error("truth file " + file_.string() + ": " + text);
     }
 
-    Truth::Board read_board(const Json& json, const std::string& key) const {
+    Truth::Board read_board(const TruthJson& json, const std::string& key) const {
         if (!json.is_object()) fail(key + " must be an object");
         Truth::Board board;
         if (!json.contains("target") || !json["target"].is_string())
@@ -64,19 +64,20 @@ class TruthReader {
         return board;
     }
 
-    double number(const Json& json, const std::string& key) const {
+    double number(const TruthJson& json, const std::string& key) const {
         if (!json.is_number()) fail(key + " must be a number, not " + json.dump());
         return json.get<double>();
     }
 
     template <int Size>
-    std::vector<Eigen::Matrix<double, Size, 1>> points(const Json& json, const std::string& name,
+    std::vector<Eigen::Matrix<double, Size, 1>> points(const TruthJson& json,
+                                                       const std::string& name,
                                                        const std::string& parent) const {
         std::vector<Eigen::Matrix<double, Size, 1>> all;
         if (!json.contains(name) || json[name].is_null()) return all;
         const std::string key = parent + "." + name;
         if (!json[name].is_array()) fail(key + " must be a list of points");
-        for (const Json& point : json[name]) {
+        for (const TruthJson& point : json[name]) {
             if (!point.is_array() || point.size() != static_cast<std::size_t>(Size))
                 fail(key + " must be a list of points of " + std::to_string(Size) + " numbers");
             Eigen::Matrix<double, Size, 1> value;
@@ -87,7 +88,7 @@ class TruthReader {
         return all;
     }
 
-    Eigen::Isometry3d pose(const Json& json, const std::string& key) const {
+    Eigen::Isometry3d pose(const TruthJson& json, const std::string& key) const {
         Eigen::Matrix4d matrix;
         if (!json.is_array() || json.size() != 4) fail(key + " must be a 4 x 4 matrix");
         for (std::size_t row = 0; row < 4; ++row) {
@@ -113,8 +114,8 @@ class TruthReader {
 };
 
 template <class Derived>
-Json to_json(const Eigen::MatrixBase<Derived>& vector) {
-    Json json = Json::array();
+TruthJson to_json(const Eigen::MatrixBase<Derived>& vector) {
+    TruthJson json = TruthJson::array();
     for (const double value : vector) {
         if (!std::isfinite(value)) throw Error("the truth holds a number that is not finite");
         json.push_back(value);
@@ -122,16 +123,16 @@ Json to_json(const Eigen::MatrixBase<Derived>& vector) {
     return json;
 }
 
-Json to_json(const Eigen::Isometry3d& transform) {
-    Json json = Json::array();
+TruthJson to_json(const Eigen::Isometry3d& transform) {
+    TruthJson json = TruthJson::array();
     for (int row = 0; row < 4; ++row)
         json.push_back(to_json(transform.matrix().row(row).transpose()));
     return json;
 }
 
 template <class Point>
-Json to_json(const std::vector<Point>& points) {
-    Json json = Json::array();
+TruthJson to_json(const std::vector<Point>& points) {
+    TruthJson json = TruthJson::array();
     for (const Point& point : points) json.push_back(to_json(point));
     return json;
 }
@@ -166,9 +167,9 @@ Truth read_truth(const fs::path& folder, std::optional<std::size_t> points) {
 }
 
 void write_truth_json(const Truth& truth, const fs::path& file) {
-    Json json;
+    TruthJson json;
     if (truth.T_camera_lidar) json["T_camera_lidar"] = to_json(*truth.T_camera_lidar);
-    json["boards"] = Json::array();
+    json["boards"] = TruthJson::array();
     for (const Truth::Board& board : truth.boards)
         json["boards"].push_back({{"target", board.target},
                                   {"T_lidar_board", to_json(board.T_lidar_board)},
@@ -176,7 +177,7 @@ void write_truth_json(const Truth& truth, const fs::path& file) {
                                   {"corners_image", to_json(board.corners_image)}});
     std::array<std::size_t, kLabels.size()> counts{};
     for (const std::uint8_t label : truth.labels) ++counts.at(label);
-    json["label_counts"] = Json::object();
+    json["label_counts"] = TruthJson::object();
     for (std::size_t i = 0; i < kLabels.size(); ++i) json["label_counts"][kLabels[i]] = counts[i];
     const std::string text = json.dump(2) + "\n";
     write(file, text.data(), text.size());

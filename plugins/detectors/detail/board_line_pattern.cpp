@@ -9,10 +9,11 @@
 #include <numeric>
 #include <utility>
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kFifths = 5;
 constexpr int kMaxSteps = 5000;            ///< 20 m of shifts: farther points are not of one board
 constexpr double kLineTolerance = 0.008;   ///< m: a point is on a line of the pattern

@@ -18,8 +18,6 @@ namespace {
 using Matrix8d = Eigen::Matrix<double, 8, 8>;
 using Vector8d = HomographyStep::Vector8d;
 
-/// px: no photo's edge points scatter less; keeps the weights finite on a rendered image.
-constexpr double kLeastScatter = 0.02;
 /// A side whose edge is weaker than this part of the board's ordinary edge is not measured.
 constexpr double kMinStrength = 0.25;
 /// A side is off the board when one of its ends is farther from the homography than this many px,

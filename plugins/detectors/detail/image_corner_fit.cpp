@@ -19,8 +19,6 @@ using Vector8d = HomographyStep::Vector8d;
 
 /// Neighbouring edge points share pixels: they count as half as many independent ones.
 constexpr double kPointsShare = 2.0;
-/// px: no photo's edge points scatter less; keeps weights finite on a rendered image.
-constexpr double kLeastScatter = 0.02;
 
 }  // namespace
 

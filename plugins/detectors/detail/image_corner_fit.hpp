@@ -14,6 +14,9 @@ namespace petal {
 
 struct RefinedBoard;
 
+/// px: no photo's edge points scatter less; keeps weights finite on a rendered image.
+inline constexpr double kLeastScatter = 0.02;
+
 /// From edge points to corners. Each hole side is a line through its own edge points, with the
 /// board's geometry (homography and common inset) as the prior: both ends may be off by `tolerance`
 /// (m, 1 sigma). Corners are where lines meet.

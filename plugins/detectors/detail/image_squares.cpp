@@ -9,11 +9,11 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// The quadrilateral of the corners must fill this part of the contour's hull: 0.64 for a circle, 1
 /// for a square. Small holes lose up to a fifth, since their traced corners are cut.

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <utility>
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSameDirection = 6.0 * kPi / 180.0;  ///< rad
 
 /// To (-pi/4, pi/4]: directions that differ by a quarter turn are those of one board.

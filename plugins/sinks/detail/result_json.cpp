@@ -12,13 +12,13 @@
 #include <optional>
 #include <set>
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-constexpr double kDegrees = 180.0 / M_PI;
 
 template <class Derived>
 Json matrix_json(const Eigen::MatrixBase<Derived>& matrix) {

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
 #include "solvers/detail/reprojection_cost.hpp"
@@ -18,7 +19,6 @@
 namespace petal {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
 /// Directions that the pairs do not observe get this 1-sigma (m or rad) instead of infinity.
 constexpr double kUnobservedSigma = 1e3;
 

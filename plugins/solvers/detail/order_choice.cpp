@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
 constexpr double kBoardRedundancy = 4.0;  // 32 numbers a board come from about 8 lines
 
 bool same(const BoardOrder& a, const BoardOrder& b) {

@@ -9,13 +9,13 @@
 #include <iterator>
 #include <string>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
 
 namespace petal {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
 constexpr std::size_t kFewestPairs = 4;  // three leave up to four poses
 
 /// A sentence where another minimum fits nearly as well; empty where none does.

@@ -9,10 +9,11 @@
 
 #include "solvers/detail/extrinsics_estimate.hpp"
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
 constexpr double kUpperZ = 3.0902;     // one-sided 99.9 %
 constexpr double kTwoSidedZ = 3.2905;  // 0.05 % at either end
 

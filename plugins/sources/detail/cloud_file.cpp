@@ -13,23 +13,18 @@
 namespace petal {
 namespace {
 
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 /// Whether a header word names `letter`: "x", "X", "x_lidar_m", "//X" (as CloudCompare writes), "x
 /// (m)".
 bool names(const std::string& word, char letter) {
     const std::size_t begin = word.find_first_not_of("/\"");
     if (begin == std::string::npos) return false;
-    const std::string text = lower(word.substr(begin));
+    const std::string text = lower_case(word.substr(begin));
     return text[0] == letter &&
            (text.size() == 1 || std::isalnum(static_cast<unsigned char>(text[1])) == 0);
 }
 
 bool names_intensity(const std::string& word) {
-    const std::string text = lower(word);
+    const std::string text = lower_case(word);
     return text == "i" || text.find("intensity") != std::string::npos ||
            text.find("reflect") != std::string::npos;
 }
@@ -69,7 +64,7 @@ CloudFile read_cloud_text(const std::filesystem::path& file) {
 }
 
 CloudFile read_cloud_file(const std::filesystem::path& file) {
-    const std::string ending = lower(file.extension().string());
+    const std::string ending = lower_case(file.extension().string());
     for (const char* refused : {".las", ".laz", ".bag", ".pcap", ".rawlog", ".jpg", ".png"})
         if (ending == refused)
             throw Error("cloud file " + file.string() + ": " + ending +

@@ -31,11 +31,6 @@ constexpr std::initializer_list<const char*> kDistortionKeys = {
 constexpr std::initializer_list<const char*> kModelKeys = {"DistModel", "distortion_model",
                                                            "camera_model"};
 
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 std::string listed(std::initializer_list<const char*> words) {
     std::string text;
     for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
@@ -49,7 +44,7 @@ std::string unknown_distortion_keys(const yaml& root) {
         if (!name.isScalar()) continue;
         const auto key = name.as<std::string>();
         const auto is_key = [&](const char* known) { return key == known; };
-        if (lower(key).rfind("dist", 0) == 0 &&
+        if (lower_case(key).rfind("dist", 0) == 0 &&
             std::none_of(kDistortionKeys.begin(), kDistortionKeys.end(), is_key) &&
             std::none_of(kModelKeys.begin(), kModelKeys.end(), is_key))
             text += "; " + in_quotes(key) + " is none of them";
@@ -261,7 +256,7 @@ class IntrinsicsReader {
     }
 
     void fill_distortion(const Raw& raw, mrpt::img::TCamera& camera) const {
-        const std::string model = lower(raw.model);
+        const std::string model = lower_case(raw.model);
         const auto& d = raw.coefficients;
         const auto is = [&](std::initializer_list<const char*> names) {
             return std::find(names.begin(), names.end(), model) != names.end();

@@ -73,6 +73,11 @@ std::vector<std::string_view> split_words(std::string_view line) {
     return words;
 }
 
+std::string lower_case(std::string text) {
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return text;
+}
+
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string shown;

@@ -18,6 +18,9 @@ std::optional<double> parse_number(std::string_view text);
 /// word go, and so does one empty word at the end ("1,2,3,").
 std::vector<std::string_view> split_words(std::string_view line);
 
+/// ASCII letters in lower case, whatever the locale.
+std::string lower_case(std::string text);
+
 /// `text` for an error message: quoted, shortened, without control characters.
 std::string in_quotes(std::string_view text);
 

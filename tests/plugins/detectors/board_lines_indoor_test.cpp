@@ -14,6 +14,7 @@
 
 #include "detectors/board_lines.hpp"
 #include "detectors/planes_ransac.hpp"
+#include "noise.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/testing/stage_harness.hpp"
 #include "real_data.hpp"
@@ -22,6 +23,7 @@ namespace petal {
 namespace {
 
 using testing::StageHarness;
+using testing::uniform;
 
 std::vector<Eigen::Vector3d> read_points(const std::string& name) {
     std::ifstream file(testing::real_data() / "sjtu_indoor" / name);
@@ -36,10 +38,6 @@ std::vector<Eigen::Vector3d> read_points(const std::string& name) {
         points.push_back(p);
     }
     return points;
-}
-
-double uniform(Rng& rng, double low, double high) {
-    return low + (high - low) * static_cast<double>(rng() >> 11) * 0x1p-53;
 }
 
 /// Boards of the indoor scene against the published corners (boards 2 to 4; the first hangs on the

@@ -12,6 +12,8 @@
 #include <limits>
 
 #include "detectors/planes_ransac.hpp"
+#include "noise.hpp"
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/plane_fit.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/calibration/target.hpp"
@@ -21,19 +23,9 @@ namespace petal {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::normal;
 using testing::StageHarness;
-
-constexpr double kPi = 3.14159265358979323846;
-
-double uniform(Rng& rng, double low, double high) {
-    return low + (high - low) * static_cast<double>(rng() >> 11) * 0x1p-53;
-}
-
-double normal(Rng& rng, double sigma) {
-    double sum = 0.0;
-    for (int i = 0; i < 12; ++i) sum += uniform(rng, -0.5, 0.5);
-    return sigma * sum;
-}
+using testing::uniform;
 
 Cloud to_cloud(const std::vector<Eigen::Vector3d>& points) {
     auto map = mrpt::maps::CPointsMapXYZI::Create();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "noise.hpp"
 #include "petal/calibration/plane_fit.hpp"
 #include "petal/testing/stage_harness.hpp"
 
@@ -18,18 +19,12 @@ namespace {
 using ::testing::HasSubstr;
 using testing::StageHarness;
 
-/// Gaussian noise that is the same with every standard library.
+/// Noise of one seed.
 class Noise {
    public:
     explicit Noise(std::uint64_t seed) : rng_(seed) {}
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(rng_() >> 11) * 0x1p-53;
-    }
-    double normal(double sigma) {
-        double sum = 0.0;
-        for (int i = 0; i < 12; ++i) sum += uniform(-0.5, 0.5);
-        return sigma * sum;
-    }
+    double uniform(double low, double high) { return testing::uniform(rng_, low, high); }
+    double normal(double sigma) { return testing::normal(rng_, sigma); }
 
    private:
     Rng rng_;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
@@ -24,8 +25,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::StageHarness;
-
-constexpr double kDegrees = 57.29577951308232;
 
 /// A quarter turn of the four by four grid, k times.
 std::size_t turned(std::size_t i, int k) {
@@ -59,16 +58,16 @@ ImageBoard image_board(const std::vector<PointPair>& corners) {
     return board;
 }
 
-struct Scene {
+struct SceneBoards {
     LidarBoards lidar;
     ImageBoards image;
 };
 
 /// The given boards of `pairs` (LiDAR, then image: indices into all boards), each list in its
 /// order.
-Scene scene_of(const std::vector<PointPair>& pairs, const mrpt::img::TCamera& camera,
-               const std::vector<int>& lidar, const std::vector<int>& image, int turn = 1) {
-    Scene scene;
+SceneBoards scene_of(const std::vector<PointPair>& pairs, const mrpt::img::TCamera& camera,
+                     const std::vector<int>& lidar, const std::vector<int>& image, int turn = 1) {
+    SceneBoards scene;
     scene.lidar.lidar = "LIDAR";
     scene.image.cameras.push_back({"CAMERA", camera});
     int k = turn;
@@ -79,14 +78,14 @@ Scene scene_of(const std::vector<PointPair>& pairs, const mrpt::img::TCamera& ca
     return scene;
 }
 
-StageHarness matched(const Scene& scene) {
+StageHarness matched(const SceneBoards& scene) {
     auto stage = StageHarness::of<BoardMatcher>("solver.board_matcher");
     stage.give<LidarBoards>("lidar", scene.lidar).give<ImageBoards>("image", scene.image);
     stage.fire();
     return stage;
 }
 
-const CameraPairs& only(const StageHarness& stage) {
+const CameraPairs& matched(const StageHarness& stage) {
     return stage.out<Correspondences>("correspondences").cameras.at(0);
 }
 
@@ -125,7 +124,7 @@ TEST(BoardMatcher, IndoorSubsetsAreAllRightWithThePriorsOn) {
         for (const bool all_images : {false, true}) {
             const auto image = all_images ? std::vector<int>{3, 1, 0, 2} : lidar;
             const auto stage = matched(scene_of(pairs, testing::indoor_camera(), lidar, image));
-            const auto& found = only(stage);
+            const auto& found = matched(stage);
             tell("lidar " + names(lidar) + " image " + names(image), found);
             EXPECT_EQ(found.boards.size(), lidar.size());
             // One LiDAR board fits any of four image boards: two of the four stay undecided.
@@ -150,16 +149,16 @@ TEST(BoardMatcher, WithoutPriorsASingleBoardIsUndecided) {
     stage.set("upright", false).set("use_max_baseline", false);
     stage.give<LidarBoards>("lidar", scene.lidar).give<ImageBoards>("image", scene.image);
     stage.fire();
-    EXPECT_EQ(only(stage).order.by, DecidedBy::undecided);
-    EXPECT_THAT(only(stage).order.reason, HasSubstr("no prior is on"));
-    EXPECT_EQ(only(stage).pairs.size(), 16u);
+    EXPECT_EQ(matched(stage).order.by, DecidedBy::undecided);
+    EXPECT_THAT(matched(stage).order.reason, HasSubstr("no prior is on"));
+    EXPECT_EQ(matched(stage).pairs.size(), 16u);
 }
 
 TEST(BoardMatcher, CampusBoardsAreDecidedByThePriorAndWeak) {
     PETAL_NEEDS_REAL_DATA();
     const auto pairs = testing::campus_pairs(testing::real_data());
     const auto stage = matched(scene_of(pairs, testing::campus_camera(), {1, 0}, {0, 1}));
-    const auto& found = only(stage);
+    const auto& found = matched(stage);
     tell("campus", found);
 
     EXPECT_EQ(wrong_pairs(found, pairs), 0);
@@ -198,7 +197,7 @@ TEST(BoardMatcher, ThreeBoardsThenTheSolverComeNearThePublishedPose) {
 }
 
 /// Noise-free boards in front of a camera that looks along the LiDAR's x.
-Scene made_scene(const std::vector<Eigen::Vector3d>& places, const Eigen::Isometry3d& T) {
+SceneBoards made_scene(const std::vector<Eigen::Vector3d>& places, const Eigen::Isometry3d& T) {
     const CameraModel model(testing::indoor_camera());
     std::vector<PointPair> pairs;
     for (std::size_t b = 0; b < places.size(); ++b) {
@@ -214,7 +213,7 @@ Scene made_scene(const std::vector<Eigen::Vector3d>& places, const Eigen::Isomet
             pairs.push_back(pair);
         }
     }
-    Scene scene;
+    SceneBoards scene;
     scene.lidar.lidar = "LIDAR";
     scene.image.cameras.push_back({"CAMERA", testing::indoor_camera()});
     for (std::size_t b = 0; b < places.size(); ++b) {
@@ -237,23 +236,23 @@ TEST(BoardMatcher, ThreeBoardsOfASimulatedSceneAreDecidedByTheData) {
     const auto scene =
         made_scene({{2.5, 0.8, 0.1}, {3.5, -0.6, 0.3}, {2.8, 0.1, -0.5}}, looking_along_x());
     const auto stage = matched(scene);
-    EXPECT_EQ(only(stage).order.by, DecidedBy::data);
-    EXPECT_EQ(only(stage).boards.size(), 3u);
-    ASSERT_FALSE(only(stage).initial.empty());
+    EXPECT_EQ(matched(stage).order.by, DecidedBy::data);
+    EXPECT_EQ(matched(stage).boards.size(), 3u);
+    ASSERT_FALSE(matched(stage).initial.empty());
     // Noise-free: the solver's convergence is what is left.
     EXPECT_LT(
-        rotation_angle(only(stage).initial[0].linear() * looking_along_x().linear().transpose()),
+        rotation_angle(matched(stage).initial[0].linear() * looking_along_x().linear().transpose()),
         1e-6);
     // The image's 1 px^2 and the LiDAR's noise.
-    EXPECT_GT(only(stage).pairs[0].covariance(0, 0), 1.0);
+    EXPECT_GT(matched(stage).pairs[0].covariance(0, 0), 1.0);
     EXPECT_TRUE(stage.notes().empty());
 }
 
 TEST(BoardMatcher, ExactDataOfOneBoardDecideNothing) {
     const auto stage = matched(made_scene({{2.5, 0.3, 0.1}}, looking_along_x()));
-    EXPECT_EQ(only(stage).order.by, DecidedBy::prior);
-    ASSERT_FALSE(only(stage).initial.empty());
-    EXPECT_LT(only(stage).initial[0].translation().norm(), 1.0);
+    EXPECT_EQ(matched(stage).order.by, DecidedBy::prior);
+    ASSERT_FALSE(matched(stage).initial.empty());
+    EXPECT_LT(matched(stage).initial[0].translation().norm(), 1.0);
 }
 
 TEST(BoardMatcher, ABoardThatOnlyOneSensorSeesIsLeftOut) {
@@ -262,8 +261,8 @@ TEST(BoardMatcher, ABoardThatOnlyOneSensorSeesIsLeftOut) {
     scene.lidar.boards.erase(scene.lidar.boards.begin());
     scene.image.boards.pop_back();
     const auto stage = matched(scene);
-    ASSERT_EQ(only(stage).boards.size(), 2u);
-    for (const auto& board : only(stage).boards) EXPECT_EQ(board.lidar + 1, board.image);
+    ASSERT_EQ(matched(stage).boards.size(), 2u);
+    for (const auto& board : matched(stage).boards) EXPECT_EQ(board.lidar + 1, board.image);
     EXPECT_EQ(stage.notes().size(), 1u);  // two of three and three
 }
 
@@ -272,8 +271,8 @@ TEST(BoardMatcher, NothingToMatchIsTold) {
     const auto full = scene;
     scene.lidar.boards.clear();
     auto stage = matched(scene);
-    EXPECT_TRUE(only(stage).pairs.empty());
-    EXPECT_EQ(only(stage).camera, "CAMERA");
+    EXPECT_TRUE(matched(stage).pairs.empty());
+    EXPECT_EQ(matched(stage).camera, "CAMERA");
     ASSERT_EQ(stage.notes().size(), 1u);
 
     scene = full;
@@ -289,7 +288,7 @@ TEST(BoardMatcher, NothingToMatchIsTold) {
     for (std::size_t i = 0; i < 16; ++i)
         scene.image.boards[0].corners[i] += 40.0 * Eigen::Vector2d(i % 3 == 0, i % 2 == 0);
     stage = matched(scene);
-    EXPECT_TRUE(only(stage).pairs.empty());
+    EXPECT_TRUE(matched(stage).pairs.empty());
     EXPECT_THAT(stage.notes().at(0).nearest_miss, HasSubstr("gate"));
 }
 

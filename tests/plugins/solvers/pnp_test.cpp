@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
 #include "petal/testing/stage_harness.hpp"
@@ -15,8 +16,6 @@ namespace petal {
 namespace {
 
 using testing::StageHarness;
-
-constexpr double kDegrees = 57.29577951308232;
 
 Correspondences scene_of(std::vector<PointPair> pairs) {
     CameraPairs seen;

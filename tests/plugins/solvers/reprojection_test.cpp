@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
 #include "petal/testing/stage_harness.hpp"
@@ -22,8 +23,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::StageHarness;
-
-constexpr double kDegrees = 57.29577951308232;
 
 Correspondences one_camera(const mrpt::img::TCamera& camera, std::vector<PointPair> pairs) {
     CameraPairs seen;
@@ -42,7 +41,7 @@ StageHarness solved(const Correspondences& scene) {
     return stage;
 }
 
-const CameraExtrinsics& only(const StageHarness& stage) {
+const CameraExtrinsics& solved_camera(const StageHarness& stage) {
     return stage.out<Extrinsics>("extrinsics").cameras.at(0);
 }
 
@@ -89,7 +88,7 @@ TEST(Reprojection, PublishedIndoorPairsGiveThePublishedPose) {
     PETAL_NEEDS_REAL_DATA();
     const auto data = testing::real_data();
     const auto stage = solved(one_camera(testing::indoor_camera(), testing::indoor_pairs(data)));
-    const auto& camera = only(stage);
+    const auto& camera = solved_camera(stage);
     const auto published = testing::published_pose(data / "sjtu_indoor/published_extrinsic.txt");
     // The file is rounded to six digits; the authors' fit is the same least squares.
     EXPECT_LT(degrees_apart(camera.T_camera_lidar, published), 0.03);
@@ -106,7 +105,7 @@ TEST(Reprojection, CampusPairsFitAsMeasured) {
     PETAL_NEEDS_REAL_DATA();
     const auto stage =
         solved(one_camera(testing::campus_camera(), testing::campus_pairs(testing::real_data())));
-    const auto& camera = only(stage);
+    const auto& camera = solved_camera(stage);
     EXPECT_NEAR(rms_px(camera), 2.60, 0.01);
     const auto published =
         testing::published_pose(testing::real_data() / "sjtu_campus/published_extrinsic.txt");
@@ -120,8 +119,10 @@ TEST(Reprojection, TwoBoardsSideBySideAreWeakAndTheDirectionIsNamed) {
     const auto stage = solved(one_camera(testing::campus_camera(), pairs));
     EXPECT_EQ(stage.verdict(), Level::weak) << stage.reasons().at(0);
     // The fit lies 5.9 deg and 0.48 m off: tilting about x with a vertical shift.
-    EXPECT_THAT(only(stage).weakest_direction, HasSubstr("tilting about the camera's x axis"));
-    EXPECT_THAT(only(stage).weakest_direction, HasSubstr("shift along the camera's y axis"));
+    EXPECT_THAT(solved_camera(stage).weakest_direction,
+                HasSubstr("tilting about the camera's x axis"));
+    EXPECT_THAT(solved_camera(stage).weakest_direction,
+                HasSubstr("shift along the camera's y axis"));
     EXPECT_THAT(stage.reasons().at(0), HasSubstr("tilting"));
 }
 
@@ -134,14 +135,14 @@ TEST(Reprojection, CovarianceIsThatOfRepeatedExperiments) {
     for (int i = 0; i < kRuns; ++i) {
         const auto stage =
             solved(one_camera(camera, made_pairs(camera, 60, 0.5, static_cast<std::uint64_t>(i))));
-        const Vector6d error = se3_log(some_pose() * only(stage).T_camera_lidar.inverse());
+        const Vector6d error = se3_log(some_pose() * solved_camera(stage).T_camera_lidar.inverse());
         // Each run has points of its own: compare in units of its own covariance.
-        const Eigen::LLT<Matrix6d> root(only(stage).covariance);
+        const Eigen::LLT<Matrix6d> root(solved_camera(stage).covariance);
         const Vector6d unit = root.matrixL().solve(error);
         scatter += unit * unit.transpose() / kRuns;
-        told += only(stage).covariance / kRuns;
-        chi2 += only(stage).chi2 / kRuns;
-        EXPECT_EQ(only(stage).degrees_of_freedom, 114);
+        told += solved_camera(stage).covariance / kRuns;
+        chi2 += solved_camera(stage).chi2 / kRuns;
+        EXPECT_EQ(solved_camera(stage).degrees_of_freedom, 114);
     }
     // The scatter of 300 experiments is known to sqrt(2 / 300) = 8 %; s0^2 of 60 medians to
     // 0.2, which in the mean makes it some 5 % wider.
@@ -155,12 +156,12 @@ TEST(Reprojection, DistortionIsPartOfTheModel) {
     camera.setDistortionPlumbBob(-0.25, 0.06, 1e-3, -5e-4);
     const auto scene = one_camera(camera, made_pairs(camera, 40, 0.0));
     // Noise-free: what is left is the solver's convergence.
-    EXPECT_LT(degrees_apart(only(solved(scene)).T_camera_lidar, some_pose()), 1e-6);
-    EXPECT_LT(rms_px(only(solved(scene))), 1e-6);
+    EXPECT_LT(degrees_apart(solved_camera(solved(scene)).T_camera_lidar, some_pose()), 1e-6);
+    EXPECT_LT(rms_px(solved_camera(solved(scene))), 1e-6);
     auto rectified = StageHarness::of<Reprojection>();
     rectified.set("use_distortion", false).give<Correspondences>("correspondences", scene).fire();
-    EXPECT_GT(rms_px(only(rectified)), 1.0);
-    EXPECT_EQ(only(rectified).model.distortion, mrpt::img::DistortionModel::none);
+    EXPECT_GT(rms_px(solved_camera(rectified)), 1.0);
+    EXPECT_EQ(solved_camera(rectified).model.distortion, mrpt::img::DistortionModel::none);
 }
 
 TEST(Reprojection, GoodPairsAreUsable) {
@@ -195,11 +196,12 @@ TEST(Reprojection, ARobustLossTakesAwayTheForceOfAWrongPair) {
     auto pairs = made_pairs(camera, 40, 0.2);
     pairs[7].image += Eigen::Vector2d(60.0, -40.0);
     const auto scene = one_camera(camera, pairs);
-    const double plain = degrees_apart(only(solved(scene)).T_camera_lidar, some_pose());
+    const double plain = degrees_apart(solved_camera(solved(scene)).T_camera_lidar, some_pose());
     for (const char* loss : {"huber", "cauchy"}) {
         auto stage = StageHarness::of<Reprojection>();
         stage.set("robust_loss", loss).give<Correspondences>("correspondences", scene).fire();
-        EXPECT_LT(degrees_apart(only(stage).T_camera_lidar, some_pose()), 0.3 * plain) << loss;
+        EXPECT_LT(degrees_apart(solved_camera(stage).T_camera_lidar, some_pose()), 0.3 * plain)
+            << loss;
     }
 }
 
@@ -213,10 +215,10 @@ TEST(Reprojection, ScenesAreJoinedAndTheWorstOrderIsTold) {
     stage.give<Correspondences>("correspondences", first)
         .give<Correspondences>("correspondences", second)
         .fire();
-    EXPECT_EQ(only(stage).residuals.size(), 50u);
-    EXPECT_EQ(only(stage).residuals.front().scene, 0u);
-    EXPECT_EQ(only(stage).residuals.back().scene, 1u);
-    EXPECT_EQ(only(stage).order.by, DecidedBy::prior);
+    EXPECT_EQ(solved_camera(stage).residuals.size(), 50u);
+    EXPECT_EQ(solved_camera(stage).residuals.front().scene, 0u);
+    EXPECT_EQ(solved_camera(stage).residuals.back().scene, 1u);
+    EXPECT_EQ(solved_camera(stage).order.by, DecidedBy::prior);
     EXPECT_EQ(stage.verdict(), Level::weak);
 
     second.cameras[0].model.fx(400.0);
@@ -314,8 +316,8 @@ TEST(Reprojection, TheSameBytesTwice) {
     const auto scene =
         one_camera(testing::indoor_camera(), testing::indoor_pairs(testing::real_data()));
     const auto a = solved(scene), b = solved(scene);
-    EXPECT_EQ(only(a).T_camera_lidar.matrix(), only(b).T_camera_lidar.matrix());
-    EXPECT_EQ(only(a).covariance, only(b).covariance);
+    EXPECT_EQ(solved_camera(a).T_camera_lidar.matrix(), solved_camera(b).T_camera_lidar.matrix());
+    EXPECT_EQ(solved_camera(a).covariance, solved_camera(b).covariance);
 }
 
 }  // namespace
