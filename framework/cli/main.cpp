@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
     add_show(app, global, action);
     add_stages(app, global, action);
     add_plugins(app, global, action);
+    add_inspect(app, global, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

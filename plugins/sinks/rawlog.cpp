@@ -32,8 +32,9 @@ void RawlogSink::describe(Spec<Params>& spec) {
 or `observation`. Of a scene, each message of the cloud becomes a `CObservationPointCloud` with a
 `CPointsMapXYZI`, each image a `CObservationImage` with its `cameraParams`; label, stamp and
 sensor pose go with them, ordered by stamp. A filtered cloud has no messages any more: it is
-written as one, with the scene's stamp. Observations are written as they come; what they keep in
-files of their own is put in.
+written as one, with the scene's stamp. Observations are written as they come, in the layout that
+they come from (`source.observations`): on their own, or in sensory frames with the actions between
+them. What they keep in files of their own is put in.
 
 `source.rawlog` reads from the file what was wired here: points and intensities bit by bit, stamps
 to the tick (100 ns), pixels without loss (MRPT would pack colour as JPEG only if a switch of the
@@ -98,6 +99,8 @@ void RawlogSink::run(Run& run) {
     const bool single = run.wired("observation");
     if (scene == single || (single && run.wired("truth")))
         throw Error("wire either observation, or cloud and images (one or both, truth with them)");
+    if (single && each_scene())
+        throw Error("file holds {scene}, but observations are of no scene; name one file");
     std::string name = params_.file;
     for (std::size_t at = 0; (at = name.find(kScene, at)) != std::string::npos;) {
         const std::string text = scene_text(run.frame());
@@ -107,7 +110,7 @@ void RawlogSink::run(Run& run) {
     if (!writer_)
         writer_ = std::make_unique<RawlogWriter>(run.output_path(name), params_.compression);
     if (single)
-        writer_->write(*run.in<Observation>("observation").observation);
+        writer_->write(run.in<Observation>("observation"));
     else
         write_scene(run, name);
     if (each_scene()) {

@@ -101,6 +101,14 @@ bool is_lidar(const CObservation& observation) {
            dynamic_cast<const CObservation2DRangeScan*>(&observation) != nullptr;
 }
 
+bool has_intensity(const CObservation& observation) {
+    if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
+        return dynamic_cast<const CPointsMapXYZI*>(cloud->pointcloud.get()) != nullptr;
+    if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation))
+        return scan->intensityImage.rows() > 0;
+    return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr;
+}
+
 void append_lidar_points(CObservation& observation, CPointsMapXYZI& points) {
     if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
         append(*cloud, points);

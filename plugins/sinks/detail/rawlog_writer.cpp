@@ -40,6 +40,32 @@ mrpt::maps::CPointsMapXYZI::Ptr copy_points(const mrpt::maps::CPointsMapXYZI& fr
     return points;
 }
 
+/// The observation itself, or a copy that holds what it keeps in other files.
+mrpt::obs::CObservation::Ptr with_its_data(const mrpt::obs::CObservation::Ptr& observation) {
+    using namespace mrpt::obs;
+    if (const auto* image = dynamic_cast<const CObservationImage*>(observation.get());
+        image != nullptr && image->image.isExternallyStored()) {
+        const auto copy = CObservationImage::Create(*image);
+        copy->image = plain_image(image->image);
+        return copy;
+    }
+    if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(observation.get());
+        cloud != nullptr && cloud->isExternallyStored()) {
+        const auto copy = CObservationPointCloud::Create(*cloud);
+        copy->load();
+        copy->overrideExternalStorageFormatFlag(
+            CObservationPointCloud::ExternalStorageFormat::None);
+        return copy;
+    }
+    if (const auto* range = dynamic_cast<const CObservation3DRangeScan*>(observation.get());
+        range != nullptr &&
+        (range->points3D_isExternallyStored() || range->rangeImage_isExternallyStored()))
+        throw Error("sensor '" + observation->sensorLabel +
+                    "' keeps its range images in files of their own; put them into the rawlog "
+                    "with `rawlog-edit --de-externalize` first");
+    return observation;
+}
+
 }  // namespace
 
 GzipOutput::GzipOutput(const std::filesystem::path& file, int level) : file_(file) {
@@ -100,42 +126,42 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, int level)
             "CImage::DISABLE_JPEG_COMPRESSION(false) in this process");
 }
 
-void RawlogWriter::serialize(const mrpt::obs::CObservation& observation) {
+void RawlogWriter::serialize(const mrpt::serialization::CSerializable& object,
+                             const std::string& whose) {
     try {
         auto archive = mrpt::serialization::archiveFrom(stream_);
-        archive << observation;
+        archive << object;
     } catch (const Error&) {
         throw;
     } catch (const std::exception& e) {
-        throw Error("sensor '" + observation.sensorLabel + "' (" +
-                    observation.GetRuntimeClass()->className + ") cannot be written to " +
+        throw Error(whose + " (" + object.GetRuntimeClass()->className + ") cannot be written to " +
                     pending_.final_path().string() + ": " + e.what());
     }
+}
+
+void RawlogWriter::serialize(const mrpt::obs::CObservation& observation) {
+    serialize(observation, "sensor '" + observation.sensorLabel + "'");
     ++observations_;
 }
 
-void RawlogWriter::write(const mrpt::obs::CObservation& observation) {
-    using namespace mrpt::obs;
-    if (const auto* image = dynamic_cast<const CObservationImage*>(&observation);
-        image != nullptr && image->image.isExternallyStored()) {
-        CObservationImage copy = *image;
-        copy.image = plain_image(image->image);
-        return serialize(copy);
-    }
-    if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
-        cloud != nullptr && cloud->isExternallyStored()) {
-        CObservationPointCloud copy = *cloud;
-        copy.load();
-        copy.overrideExternalStorageFormatFlag(CObservationPointCloud::ExternalStorageFormat::None);
-        return serialize(copy);
-    }
-    if (const auto* range = dynamic_cast<const CObservation3DRangeScan*>(&observation);
-        range != nullptr &&
-        (range->points3D_isExternallyStored() || range->rangeImage_isExternallyStored()))
-        throw Error("sensor '" + observation.sensorLabel +
-                    "' keeps its range images in files of their own; put them into the rawlog "
-                    "with `rawlog-edit --de-externalize` first");
-    serialize(observation);
+void RawlogWriter::end_frame() {
+    if (frame_.size() == 0) return;
+    serialize(frame_, "the sensory frame of sensor '" + (*frame_.begin())->sensorLabel + "'");
+    observations_ += frame_.size();
+    frame_.clear();
+}
+
+void RawlogWriter::write(const Observation& observation) {
+    const RawlogPlace& place = observation.place;
+    const auto self_contained = with_its_data(observation.observation);
+    if (!place.in_frame || !place.before.empty()) end_frame();
+    for (const auto& object : place.before) serialize(*object, "what is no observation");
+    if (place.in_frame)
+        frame_.insert(self_contained);
+    else
+        serialize(*self_contained);
+    if (place.ends_frame) end_frame();
+    for (const auto& object : place.after) serialize(*object, "what is no observation");
 }
 
 void RawlogWriter::write_image(const CameraImage& camera) {
@@ -180,6 +206,7 @@ void RawlogWriter::write_scene(const Cloud* cloud, const Images* images, double 
 }
 
 void RawlogWriter::commit() {
+    end_frame();
     stream_.close();
     pending_.commit();
 }

@@ -5,6 +5,7 @@
 
 #include <mrpt/io/CStream.h>
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <zlib.h>
 
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/images.hpp"
+#include "petal/calibration/observation.hpp"
 #include "petal/output.hpp"
 
 namespace petal {
@@ -48,9 +50,10 @@ class RawlogWriter {
    public:
     RawlogWriter(const std::filesystem::path& file, int level);
 
-    /// One observation as it is; what it keeps in other files is put in.
+    /// One observation as it is, with what stood around it; what it keeps in other files is put
+    /// in. The observations of a sensory frame are written together, with its last one.
     /// \throws Error where that cannot be done, or writing fails.
-    void write(const mrpt::obs::CObservation& observation);
+    void write(const Observation& observation);
     /// A scene: each message of the cloud as a CObservationPointCloud with a CPointsMapXYZI, each
     /// image as a CObservationImage, by their stamps. Either may be null. `stamp` (s) is for a
     /// cloud without messages.
@@ -61,11 +64,14 @@ class RawlogWriter {
     const std::filesystem::path& file() const { return pending_.final_path(); }
 
    private:
+    void serialize(const mrpt::serialization::CSerializable& object, const std::string& whose);
     void serialize(const mrpt::obs::CObservation& observation);
+    void end_frame();
     void write_image(const CameraImage& camera);
 
     PendingFile pending_;
     GzipOutput stream_;
+    mrpt::obs::CSensoryFrame frame_;  ///< in work
     std::size_t observations_ = 0;
 };
 

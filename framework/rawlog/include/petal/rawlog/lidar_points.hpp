@@ -12,6 +12,9 @@ namespace petal {
 /// CObservationVelodyneScan, CObservationRotatingScan, CObservation2DRangeScan.
 bool is_lidar(const mrpt::obs::CObservation& observation);
 
+/// Whether the observation's points have an intensity that append_lidar_points reads.
+bool has_intensity(const mrpt::obs::CObservation& observation);
+
 /// Appends the observation's points in the sensor's own frame (its pose on the vehicle is not
 /// applied) with intensity where there is one (0 else). Works on `observation` where MRPT
 /// converts in place.

@@ -44,6 +44,8 @@ class RawlogReader {
 
     const std::filesystem::path& file() const { return file_; }
     std::size_t objects() const { return objects_; }  ///< read whole so far
+    /// What it reads from: compressed or not, bytes read.
+    const GzipInput& stream() const { return stream_; }
     /// The external files that load() has read.
     const std::vector<std::filesystem::path>& external_files() const { return external_files_; }
 

@@ -19,9 +19,9 @@ namespace petal {
 struct RawlogPlace {
     using Objects = std::vector<std::shared_ptr<const mrpt::serialization::CSerializable>>;
 
-    Objects before;         ///< what stood before it and is no observation: actions, empty frames
-    Objects after;          ///< the same behind it, where no other observation of the file follows
-    bool in_frame = false;  ///< it is part of a sensory frame ...
+    Objects before;           ///< what stood before it and is no observation: actions, empty frames
+    Objects after;            ///< the same behind the last observation of all
+    bool in_frame = false;    ///< it is part of a sensory frame ...
     bool ends_frame = false;  ///< ... and the last of it
 };
 

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <atomic>
+
+namespace petal::cli {
+
+/// From now on the first SIGINT or SIGTERM sets the flag; a second one ends the program at once.
+const std::atomic<bool>& catch_interrupts();
+
+}  // namespace petal::cli
