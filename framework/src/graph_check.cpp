@@ -29,8 +29,8 @@ std::vector<std::vector<Edge>> edges_by_writer(const Draft& draft) {
 void tell_cycles(const Draft& draft, ProblemList& problems) {
     for (const auto& cycle : find_cycles(draft)) {
         std::string text;
-        for (const DraftWire* wire : cycle) text += draft.stages[wire->from].id + " -> ";
-        text += draft.stages[cycle.front()->from].id;
+        for (const DraftWire* wire : cycle) text += printable(draft.stages[wire->from].id) + " -> ";
+        text += printable(draft.stages[cycle.front()->from].id);
         const DraftWire& closing = *cycle.back();
         problems.add(closing.origin, closing.path,
                      "cycle: " + text + "; expected wires that lead from sources to sinks only");
@@ -51,7 +51,7 @@ void tell_idle_stages(const Draft& draft, ProblemList& problems) {
         std::vector<std::string> names;
         for (const PortSpec& port : stage.spec->inputs) names.push_back(port.name);
         problems.add(stage.origin, path_join(path_join("stages", stage.id), "in"),
-                     "no input of '" + stage.id + "' is wired, so it would never fire" +
+                     "no input of '" + printable(stage.id) + "' is wired, so it would never fire" +
                          expected_one_of("", names));
     }
 }

@@ -142,15 +142,17 @@ std::string path_join(const std::string& path, std::size_t index) {
 }
 
 std::string suggestion(const std::string& typo, const std::vector<std::string>& known) {
-    return typo.size() <= kLongestTypo ? did_you_mean(typo, known) : std::string();
+    if (typo.size() > kLongestTypo) return {};
+    const std::string near = nearest(typo, known);
+    return near.empty() ? near : "; did you mean '" + printable(near) + "'?";
 }
 
 std::string expected_one_of(const std::string& typo, const std::vector<std::string>& known) {
     if (known.empty()) return "; expected none";
     const auto count = std::min(known.size(), kMostListed);
-    const std::vector<std::string> listed(
-        known.begin(),
-        known.begin() + static_cast<std::vector<std::string>::difference_type>(count));
+    // Names of the user's own, as ids of stages, may hold anything.
+    std::vector<std::string> listed;
+    for (std::size_t i = 0; i < count; ++i) listed.push_back(printable(known[i]));
     return (known.size() == 1 ? "; expected " : "; expected one of ") + join(listed) +
            (count < known.size() ? ", ..." : "") + suggestion(typo, known);
 }

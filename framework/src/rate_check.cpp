@@ -42,8 +42,9 @@ class RateCheck {
             for (const DraftWire& wire : input.wires) {
                 if (rates_[wire.from] != Rate::frame) continue;
                 problems_.add(wire.origin, wire.path,
-                              "two rates: '" + stage.id + "' gathers and fires once, after the " +
-                                  "last frame, but '" + wire.stage + "." + wire.port +
+                              "two rates: '" + printable(stage.id) +
+                                  "' gathers and fires once, after the " + "last frame, but '" +
+                                  printable(wire.stage) + "." + wire.port +
                                   "' brings a packet for each frame; expected a once wire on '" +
                                   input.name + "'");
             }
@@ -64,11 +65,11 @@ class RateCheck {
         }
         if (frame && once) {
             problems_.add(once->origin, once->path,
-                          "two rates: '" + once->stage + "." + once->port +
-                              "' fires once, after the last frame, but '" + frame->stage + "." +
-                              frame->port + "' (" + frame->path +
+                          "two rates: '" + printable(once->stage) + "." + once->port +
+                              "' fires once, after the last frame, but '" +
+                              printable(frame->stage) + "." + frame->port + "' (" + frame->path +
                               ") brings a packet for each frame; expected one rate on the inputs " +
-                              "of '" + stage.id + "'");
+                              "of '" + printable(stage.id) + "'");
             return Rate::unknown;
         }
         if (!known) return Rate::unknown;

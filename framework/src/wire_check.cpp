@@ -91,7 +91,7 @@ class WireCheck {
         if (twice) {
             stage.inputs_known = false;
             problems_.add(node.origin, path,
-                          "'" + node.text + "' is wired to '" + input.name +
+                          "'" + printable(node.text) + "' is wired to '" + printable(input.name) +
                               "' already; expected each wire once");
             return;
         }
@@ -121,16 +121,16 @@ class WireCheck {
         wire.output = source.spec->find_output(wire.port);
         if (!wire.output) {
             problems_.add(node.origin, path,
-                          "unknown output '" + printable(wire.port) + "' of '" + source.id + "' (" +
-                              source.spec->type + ")" +
+                          "unknown output '" + printable(wire.port) + "' of '" +
+                              printable(source.id) + "' (" + source.spec->type + ")" +
                               expected_one_of(wire.port, names_of(source.spec->outputs)));
             return std::nullopt;
         }
         if (input.port && input.port->type != wire.output->type) {
             problems_.add(node.origin, path,
-                          "two types on one wire: '" + text + "' writes " + wire.output->type +
-                              ", '" + input.name + "' reads " + input.port->type + "; expected " +
-                              wires_of_type(input.port->type));
+                          "two types on one wire: '" + printable(text) + "' writes " +
+                              wire.output->type + ", '" + input.name + "' reads " +
+                              input.port->type + "; expected " + wires_of_type(input.port->type));
             return std::nullopt;
         }
         return wire;
@@ -153,7 +153,9 @@ class WireCheck {
         std::vector<std::string> fitting;
         for (const PortSpec& port : spec->outputs)
             if (port.type == input.port->type) fitting.push_back(port.name);
-        return fitting.size() == 1 ? "; did you mean '" + text + "." + fitting.front() + "'?" : "";
+        return fitting.size() == 1
+                   ? "; did you mean '" + printable(text) + "." + fitting.front() + "'?"
+                   : "";
     }
 
     /// "a wire of type Cloud: one of scene.cloud, margins.cloud", from the pipeline's own stages.
@@ -162,7 +164,7 @@ class WireCheck {
         for (const DraftStage& stage : draft_.stages) {
             if (!stage.spec) continue;
             for (const PortSpec& port : stage.spec->outputs)
-                if (port.type == type) wires.push_back(stage.id + "." + port.name);
+                if (port.type == type) wires.push_back(printable(stage.id) + "." + port.name);
         }
         if (wires.empty()) return "a stage that writes " + type;
         std::string text = "a wire of type " + type + ", as ";

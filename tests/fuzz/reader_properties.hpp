@@ -22,7 +22,7 @@ inline void require(bool holds, const char* what, const std::string& text = "") 
 /// What a user may see in a terminal: one line, no control characters, no flood.
 inline void require_readable(const Problem& problem) {
     const std::string text = to_string(problem);
-    constexpr std::size_t kLongest = 4000;
+    constexpr std::size_t kLongest = 20000;  // a cycle is told with all its ids
     require(!problem.message.empty(), "a problem has a message");
     require(text.size() < kLongest, "a problem is told shortly", text.substr(0, kLongest));
     const bool controls = std::any_of(text.begin(), text.end(), [](char c) {
