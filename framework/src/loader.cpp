@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "petal/error.hpp"
+#include "host_errors.hpp"
 #include "plugin_opening.hpp"
 #include "plugin_search.hpp"
 
@@ -46,7 +46,7 @@ void check_types(const PluginRecord& record, const std::map<std::string, std::ui
 
 }  // namespace
 
-PluginSet load_plugins(const std::vector<std::filesystem::path>& folders) {
+PluginSet survey_plugins(const std::vector<std::filesystem::path>& folders) {
     PluginSet set;
     set.searched = folders;
     // All records are read before the first library is opened: they tell which types are in use.
@@ -68,13 +68,28 @@ PluginSet load_plugins(const std::vector<std::filesystem::path>& folders) {
             set.refused.push_back({plugin.candidate.library, error.what()});
             continue;
         }
-        // Outside the catch: a type in two libraries is the user's to solve, not ours to choose.
-        for (StageSpec& stage : opened.stages) set.registry.add(std::move(stage));
+        for (StageSpec& stage : opened.stages) {
+            try {
+                set.registry.add(std::move(stage));
+            } catch (const PluginError& clash) {
+                set.clashes.emplace_back(clash.what());
+            }
+        }
         set.loaded.push_back(std::move(opened.plugin));
         std::move(opened.thread_limits.begin(), opened.thread_limits.end(),
                   std::back_inserter(set.thread_limits));
     }
     return set;
+}
+
+PluginSet load_plugins(const std::vector<std::filesystem::path>& folders) {
+    PluginSet set = survey_plugins(folders);
+    if (set.clashes.empty()) return set;
+    // A type in two libraries is the user's to solve, not ours to choose.
+    const std::size_t more = set.clashes.size() - 1;
+    throw PluginError(
+        set.clashes.front() +
+        (more > 0 ? "; 'petal plugins' lists " + std::to_string(more) + " more" : ""));
 }
 
 }  // namespace petal

@@ -31,6 +31,7 @@ struct PluginSet {
     Registry registry;
     std::vector<LoadedPlugin> loaded;
     std::vector<Refusal> refused;
+    std::vector<std::string> clashes;             ///< types in two libraries, a sentence each
     std::vector<std::filesystem::path> searched;  ///< folders, in order
     std::vector<std::function<void(int)>> thread_limits;
 };
@@ -42,9 +43,13 @@ struct PluginSet {
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& first);
 
 /// Loads every plugin of the folders (sorted by file name in each; a library found twice is loaded
-/// once). A bad library is skipped and remembered. \throws Error on two libraries with one stage
-/// type.
+/// once). A bad library is skipped and remembered. \throws PluginError on two libraries with one
+/// stage type.
 PluginSet load_plugins(const std::vector<std::filesystem::path>& folders);
+
+/// The same, to tell what is there: of two libraries with one type both are in `loaded`, and the
+/// first has the type.
+PluginSet survey_plugins(const std::vector<std::filesystem::path>& folders);
 
 /// Reads the record of a library from the file, without opening the library.
 /// \throws Error: no library, no record, record cut.

@@ -4,6 +4,7 @@
 #include "param_check.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -89,6 +90,19 @@ Origin relation_origin(const JsonNode& stage) {
     return latest;
 }
 
+/// A relation that throws is a mistake of the stage's author; the user is told whose.
+std::vector<std::string> violated_relations(const StageSpec& spec, const void* params) {
+    if (!spec.check_params) return {};
+    const std::string failed = "the check of " + spec.type + " (plugin " + spec.plugin + ") failed";
+    try {
+        return spec.check_params(params);
+    } catch (const std::exception& failure) {
+        return {failed + ": " + failure.what()};
+    } catch (...) {
+        return {failed + ": it threw what is no std::exception"};
+    }
+}
+
 }  // namespace
 
 ParamCheck::ParamCheck(Expansions expansions, bool need_data, ProblemList& problems)
@@ -129,11 +143,9 @@ CheckedParams ParamCheck::check(const StageSpec& spec, const JsonNode& stage,
     auto params = spec.make_params();
     for (const ParamSpec& param : spec.params)
         param.set(params.get(), checked.expanded.at(param.name));
-    if (spec.check_params) {
-        for (const std::string& sentence : spec.check_params(params.get())) {
-            all_right = false;
-            problems_.add(relation_origin(stage), place, sentence);
-        }
+    for (const std::string& sentence : violated_relations(spec, params.get())) {
+        all_right = false;
+        problems_.add(relation_origin(stage), place, sentence);
     }
     if (all_right) checked.params = std::move(params);
     return checked;

@@ -15,8 +15,11 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <map>
+#include <sstream>
 #include <utility>
 
+#include "nearest.hpp"
 #include "petal/error.hpp"
 #include "plugin_opening.hpp"
 #include "plugin_search.hpp"
@@ -87,8 +90,7 @@ void write_all(int fd, const std::string& text) {
     ::dup2(output, STDOUT_FILENO);
     ::dup2(output, STDERR_FILENO);
     try {
-        open_plugin(library, record);
-        write_all(answer, std::string(1, kOk));
+        write_all(answer, kOk + join(open_plugin(library, record).plugin.types, "\n"));
     } catch (const std::exception& error) {
         write_all(answer, kRefused + std::string(error.what()));
     }
@@ -158,7 +160,7 @@ ProbeResult probe(const std::filesystem::path& library, std::chrono::millisecond
     try {
         record = fitting_record(library);
     } catch (const Error& error) {
-        return {Outcome::refused, error.what(), {}};
+        return {Outcome::refused, error.what(), {}, {}};
     }
     Pipe answer_pipe;
     Pipe output_pipe;
@@ -195,6 +197,9 @@ ProbeResult probe(const std::filesystem::path& library, std::chrono::millisecond
     } else if (answer.empty() || child.status() != 0) {
         result.outcome = Outcome::crashed;
         result.reason = how_it_ended(child.status()) + " while it was loaded";
+    } else {
+        std::istringstream types(answer.substr(1));
+        for (std::string type; std::getline(types, type);) result.types.push_back(type);
     }
     return result;
 }
@@ -203,10 +208,21 @@ std::vector<Probed> probe_all(const std::vector<std::filesystem::path>& folders,
                               std::chrono::milliseconds limit) {
     std::vector<Refusal> refused;
     std::vector<Probed> probed;
-    for (const Candidate& candidate : find_candidates(folders, refused))
-        probed.push_back({candidate.library, probe(candidate.library, limit)});
+    std::map<std::string, std::filesystem::path> owners;  // of the types
+    for (const Candidate& candidate : find_candidates(folders, refused)) {
+        Probed library{candidate.library, probe(candidate.library, limit), {}};
+        for (const std::string& type : library.result.types) {
+            const auto [owner, is_new] = owners.emplace(type, candidate.library);
+            if (!is_new)
+                library.clashes.push_back("stage type '" + type + "' is in " +
+                                          owner->second.string() + " too; rename one of them or " +
+                                          "take one library away");
+        }
+        probed.push_back(std::move(library));
+    }
     for (const Refusal& refusal : refused)
-        probed.push_back({refusal.library, {ProbeResult::Outcome::refused, refusal.reason, {}}});
+        probed.push_back(
+            {refusal.library, {ProbeResult::Outcome::refused, refusal.reason, {}, {}}, {}});
     return probed;
 }
 

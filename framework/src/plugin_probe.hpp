@@ -14,8 +14,9 @@ namespace petal {
 struct ProbeResult {
     enum class Outcome { ok, refused, crashed, hung };
     Outcome outcome = Outcome::ok;
-    std::string reason;  ///< empty where it loaded; "signal 6 (Aborted)"
-    std::string output;  ///< the end of what the library printed
+    std::string reason;              ///< empty where it loaded; "signal 6 (Aborted)"
+    std::string output;              ///< the end of what the library printed
+    std::vector<std::string> types;  ///< of its stages, where it loaded
 };
 
 /// "ok", "refused", "crashed", "hung".
@@ -24,17 +25,18 @@ const char* to_string(ProbeResult::Outcome outcome);
 struct Probed {
     std::filesystem::path library;
     ProbeResult result;
+    std::vector<std::string> clashes;  ///< types that an earlier library has too, a sentence each
 };
 
 /// Loads one library in a child process, so that one that ends or blocks its host is named and does
-/// no harm. Its record is read first. Whether its packet types agree with those of other plugins,
-/// and whether its stage types are taken, only load_plugins can tell. The child is killed after
-/// `limit`. Call it before threads are started: the child is a fork. \throws Error when no child
-/// can be started.
+/// no harm. Its record is read first. Whether its packet types agree with those of other plugins
+/// only load_plugins can tell. The child is killed after `limit`. Call it before threads are
+/// started: the child is a fork. \throws Error when no child can be started.
 ProbeResult probe(const std::filesystem::path& library,
                   std::chrono::milliseconds limit = std::chrono::seconds(10));
 
-/// Probes every library that load_plugins would try, in its order.
+/// Probes every library that load_plugins would try, in its order; tells types that two of them
+/// have.
 std::vector<Probed> probe_all(const std::vector<std::filesystem::path>& folders,
                               std::chrono::milliseconds limit = std::chrono::seconds(10));
 
