@@ -9,7 +9,7 @@ function(petal_flags target)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
     if(PETAL_SANITIZE)
-        target_compile_options(${target} PRIVATE -fsanitize=${PETAL_SANITIZE} -fno-omit-frame-pointer
+        target_compile_options(${target} PRIVATE -O1 -g1 -fsanitize=${PETAL_SANITIZE} -fno-omit-frame-pointer
                                -fno-sanitize-recover=all)
         target_link_options(${target} PRIVATE -fsanitize=${PETAL_SANITIZE})
     endif()

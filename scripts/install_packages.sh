@@ -2,11 +2,12 @@
 # SPDX-FileCopyrightText: 2026 the petal authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Installs what packages.txt lists and is missing. Quiet where nothing is.
+# Installs what a list of packages names and is missing: scripts/install_packages.sh [LIST], packages.txt by default.
+# Quiet where nothing is missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-mapfile -t wanted < <(grep -vE '^(#|$)' packages.txt)
+mapfile -t wanted < <(grep -vE '^(#|$)' "${1:-packages.txt}")
 missing=()
 for package in "${wanted[@]}"; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")

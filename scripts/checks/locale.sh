@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the petal authors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# All tests once more as in a host that uses a locale with a decimal comma, in C and in C++.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+folder=$PWD/build/locales
+mkdir -p "$folder"
+[ -e "$folder/de_DE.UTF-8" ] || localedef -i de_DE -f UTF-8 "$folder/de_DE.UTF-8"
+export LOCPATH=$folder LC_ALL=de_DE.UTF-8
+scripts/checks/run_tests.sh build env LD_PRELOAD="$PWD/build/lib/libpetal_test_locale.so"
