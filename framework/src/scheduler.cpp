@@ -39,6 +39,8 @@ Scheduler::Scheduler(const Pipeline& pipeline, const RunSettings& settings, RunR
             nodes_.emplace_back(stage, nodes_.size());
         } catch (const std::exception& failure) {
             fail(stage, "while it was made", failure.what());
+        } catch (...) {
+            fail(stage, "while it was made", "threw something that is no std::exception");
         }
     }
     if (failures_.empty()) connect_nodes();
