@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 unset PETAL_PLUGIN_PATH
 
 step() {
-    "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "failed ($?): $*" >&2; exit 1; }
+    "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "failed: $*" >&2; exit 1; }
 }
 expect() {
     grep -qF -- "$1" "$2" || { cat "$2" >&2; echo "expected in the output: $1" >&2; exit 1; }
