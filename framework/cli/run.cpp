@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 #include <iostream>
 #include <thread>
+#include <utility>
 
 #include "command.hpp"
 #include "host_errors.hpp"
 #include "petal/output.hpp"
 #include "run_folder.hpp"
+#include "run_guard.hpp"
+#include "run_progress.hpp"
 #include "run_report.hpp"
 #include "runner.hpp"
 
@@ -18,12 +23,21 @@ namespace petal::cli {
 namespace {
 
 std::atomic<bool> cancel_requested{false};
+/// From here on a run folder has to be left in order.
+std::atomic<bool> folder_made{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "written from a signal handler");
 
-/// The first signal asks the run to end; a second one ends the program at once.
-extern "C" void on_signal(int number) {
-    cancel_requested.store(true);
-    std::signal(number, SIG_DFL);
+/// The first signal asks the run to end; before there is a run folder, and the second time, the
+/// program ends at once.
+extern "C" void on_signal(int) {
+    if (!folder_made.load() || cancel_requested.exchange(true)) ::_exit(kCancelled);
+}
+
+void catch_signals() {
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+    // A limit on the size of files is an error of the write, like a full disk, not the end.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int thread_count(int asked) {
@@ -51,8 +65,7 @@ int exit_code(const RunReport& report) {
     return report.level().value_or(Level::usable) == Level::usable ? kDone : kNotUsable;
 }
 
-int run(const PipelineOptions& options, const GlobalOptions& global) {
-    const PluginSet plugins = find_plugins(global);
+PipelineRequest complete_request(const PipelineOptions& options) {
     PipelineRequest request = options.request();
     request.need_data = true;
     if (!request.out) request.out = default_run_folder(request.file.stem().string());
@@ -64,6 +77,49 @@ int run(const PipelineOptions& options, const GlobalOptions& global) {
                              " is no folder; give the folder that holds the data");
         request.data = std::filesystem::absolute(*request.data);
     }
+    return request;
+}
+
+/// Runs, and closes the log. That the log could not be written is an error of the run.
+RunReport run_logged(const Pipeline& pipeline, RunSettings settings, Verbosity verbosity) {
+    RunGuard guard(settings.folder, cancel_requested, kCancelled);
+    RunLog log(settings.folder, verbosity);
+    settings.on_progress = [&](const RunProgress& progress) {
+        guard.set_at_work(progress.at_work);
+        if (const std::size_t width = log.status_width(); width > 0)
+            log.status(progress_text(progress, width));
+    };
+    RunReport report = run_pipeline(pipeline, settings, log);
+    guard.set_at_work({});
+    log.status(report.used_files.empty() ? "" : "checksums of the data");
+    add_checksums(report, settings.cancel);
+    for (const std::string& error : report.errors) log.error(error);
+    try {
+        log.close();
+    } catch (const Error& error) {
+        report.status = RunStatus::failed;
+        report.errors.emplace_back(error.what());
+        std::cerr << "error: " << error.what() << "\n";
+    }
+    return report;
+}
+
+void write_run_json(const RunReport& report, const Pipeline& pipeline,
+                    const std::filesystem::path& folder) {
+    try {
+        PendingFile file(folder / "run.json");
+        write_file(file.path(), to_json(report, pipeline));
+        file.commit();
+    } catch (const Error& error) {
+        note_end(folder, "failed", error.what());
+        throw;
+    }
+}
+
+int run(const PipelineOptions& options, const GlobalOptions& global) {
+    catch_signals();
+    const PluginSet plugins = find_plugins(global);
+    const PipelineRequest request = complete_request(options);
     int code = kDone;
     const auto pipeline = checked(request, plugins, code);
     if (!pipeline) return code;
@@ -72,21 +128,21 @@ int run(const PipelineOptions& options, const GlobalOptions& global) {
     RunSettings settings;
     settings.threads = thread_count(options.threads);
     settings.debug.insert(options.debug.begin(), options.debug.end());
+    folder_made = true;
     settings.folder = prepare_run_folder(*request.out, options.force,
                                          RunInputs{request.data.value_or(""), request.file});
     settings.thread_limits = plugins.thread_limits;
     settings.cancel = &cancel_requested;
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
-
-    RunLog log(settings.folder, global.verbosity());
-    const RunReport report = run_pipeline(*pipeline, settings, log);
-    for (const std::string& error : report.errors) log.error(error);
-    log.close();
-    PendingFile run_json(settings.folder / "run.json");
-    write_file(run_json.path(), to_json(report, *pipeline));
-    run_json.commit();
-    print_summary(report, settings.folder);
+    const std::filesystem::path folder = settings.folder;
+    RunReport report;
+    try {
+        report = run_logged(*pipeline, std::move(settings), global.verbosity());
+    } catch (const std::exception& failure) {
+        note_end(folder, "failed", failure.what());
+        throw;
+    }
+    write_run_json(report, *pipeline, folder);
+    print_summary(report, folder);
     return exit_code(report);
 }
 

@@ -24,19 +24,32 @@ std::string reason(int error_number) {
     return std::generic_category().message(error_number);
 }
 
+constexpr char kPart[] = ".part";
+constexpr char kFull[] = "; is the disk full? Free some space, or give another folder with --out";
+
+/// What a file is called in a message: a temporary one by the name that it gets in the end.
+std::string shown(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    const std::size_t part = sizeof(kPart) - 1;
+    const bool temporary = stem.size() > part + 1 && stem[0] == '.' &&
+                           stem.compare(stem.size() - part, part, kPart) == 0;
+    if (!temporary) return path.string();
+    const std::string name = stem.substr(1, stem.size() - 1 - part) + path.extension().string();
+    return (path.parent_path() / name).string();
+}
+
 /// Forces a file, or a folder's entries, to disk: a rename must not become visible before the
 /// content.
 void sync(const fs::path& path, int flags) {
     const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
     if (descriptor < 0)
-        throw Error("cannot write " + path.string() + ": " + reason(errno) +
+        throw Error("cannot write " + shown(path) + ": " + reason(errno) +
                     "; check that the folder is writable");
     const int failed = ::fsync(descriptor) != 0 ? errno : 0;
     ::close(descriptor);
     // Some file systems cannot sync a folder and say so: that is no loss of content.
     if (failed != 0 && failed != EINVAL && failed != EROFS)
-        throw Error("cannot write " + path.string() + ": " + reason(failed) +
-                    "; is the disk full?");
+        throw Error("cannot write " + shown(path) + ": " + reason(failed) + kFull);
 }
 
 }  // namespace
@@ -44,13 +57,14 @@ void sync(const fs::path& path, int flags) {
 void write_file(const fs::path& path, std::string_view content) {
     errno = 0;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    if (!file && errno == ENOSPC)
+        throw Error("cannot write " + shown(path) + ": " + reason(errno) + kFull);
     if (!file)
-        throw Error("cannot write " + path.string() + ": " + reason(errno) +
+        throw Error("cannot write " + shown(path) + ": " + reason(errno) +
                     "; check that the folder is writable");
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
-    if (!file)
-        throw Error("cannot write " + path.string() + ": " + reason(errno) + "; is the disk full?");
+    if (!file) throw Error("cannot write " + shown(path) + ": " + reason(errno) + kFull);
 }
 
 PendingFile::PendingFile(fs::path final_path) : final_(std::move(final_path)) {
@@ -63,7 +77,12 @@ PendingFile::PendingFile(fs::path final_path) : final_(std::move(final_path)) {
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         throw Error("cannot write into the folder " + folder.string() + ": " + reason(errno) +
                     "; give another one with --out");
-    temporary_ = folder / ("." + final_.stem().string() + ".part" + final_.extension().string());
+    temporary_ = temporary_of(final_);
+}
+
+fs::path PendingFile::temporary_of(const fs::path& final_path) {
+    const fs::path folder = final_path.has_parent_path() ? final_path.parent_path() : fs::path(".");
+    return folder / ("." + final_path.stem().string() + kPart + final_path.extension().string());
 }
 
 PendingFile::~PendingFile() {
@@ -75,7 +94,7 @@ PendingFile::~PendingFile() {
 void PendingFile::commit() {
     std::error_code error;
     if (!fs::exists(temporary_, error))
-        throw Error("nothing was written for " + final_.string() + "; is the disk full?");
+        throw Error("nothing was written for " + final_.string() + kFull);
     sync(temporary_, O_RDONLY);
     fs::rename(temporary_, final_, error);
     if (error) throw Error("cannot put " + final_.string() + " in place: " + error.message());

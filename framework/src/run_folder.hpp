@@ -28,4 +28,18 @@ struct RunInputs {
 std::filesystem::path prepare_run_folder(const std::filesystem::path& out, bool force,
                                          const RunInputs& inputs);
 
+/// Adds a product to the run.json of a run that goes on, so that a later run with --force knows it
+/// although this one is killed. Does nothing where run.json does not say "running".
+/// \throws Error when it cannot be written.
+void note_product(const std::filesystem::path& folder, const std::filesystem::path& product);
+
+/// Changes the run.json of a run that goes on where the whole one cannot be written: the status is
+/// `status`, and `error`, if there is room for it, the only error. Does nothing where run.json does
+/// not say "running". Never throws.
+void note_end(const std::filesystem::path& folder, const std::string& status,
+              const std::string& error) noexcept;
+
+/// Removes the temporary files of a run's products and of its stages' files. Never throws.
+void remove_temporaries(const std::filesystem::path& folder) noexcept;
+
 }  // namespace petal

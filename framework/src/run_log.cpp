@@ -4,14 +4,15 @@
 #include "run_log.hpp"
 
 #include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <vector>
 
 #include "petal/output.hpp"
+#include "progress_terminal.hpp"
 
 namespace petal {
 
@@ -41,17 +42,34 @@ spdlog::level::level_enum terminal_level(Verbosity verbosity) {
     return spdlog::level::info;
 }
 
+/// The messages of spdlog on the terminal that the progress is drawn on.
+class TerminalSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+   public:
+    explicit TerminalSink(ProgressTerminal& terminal) : terminal_(terminal) {}
+
+   private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        terminal_.print(fmt::to_string(message.payload) + "\n");
+    }
+    void flush_() override {}
+
+    ProgressTerminal& terminal_;
+};
+
 }  // namespace
 
 struct RunLog::State {
-    explicit State(const std::filesystem::path& folder) : file(folder / "log.txt") {}
+    State(const std::filesystem::path& folder, bool with_status)
+        : file(folder / "log.txt"), terminal(with_status) {}
     PendingFile file;
+    ProgressTerminal terminal;
     std::unique_ptr<spdlog::logger> logger;
     std::atomic<bool> incomplete{false};
 };
 
 RunLog::RunLog(const std::filesystem::path& folder, Verbosity verbosity)
-    : state_(std::make_unique<State>(folder)) {
+    : state_(
+          std::make_unique<State>(folder, verbosity != Verbosity::quiet && stderr_takes_status())) {
     try {
         auto to_file =
             std::make_shared<spdlog::sinks::basic_file_sink_mt>(state_->file.path().string(), true);
@@ -59,8 +77,7 @@ RunLog::RunLog(const std::filesystem::path& folder, Verbosity verbosity)
             "%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc));
         to_file->set_level(verbosity == Verbosity::verbose ? spdlog::level::debug
                                                            : spdlog::level::info);
-        auto to_terminal = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-        to_terminal->set_pattern("%v");
+        auto to_terminal = std::make_shared<TerminalSink>(state_->terminal);
         to_terminal->set_level(terminal_level(verbosity));
         state_->logger = std::make_unique<spdlog::logger>(
             "petal", spdlog::sinks_init_list{to_file, to_terminal});
@@ -90,12 +107,22 @@ void RunLog::error(const std::string& message) {
     if (state_->logger) state_->logger->log(spdlog::level::err, "error: " + message);
 }
 
+void RunLog::status(const std::string& text) {
+    state_->terminal.set_status(text);
+}
+
+std::size_t RunLog::status_width() const {
+    return state_->terminal.width();
+}
+
 void RunLog::close() {
+    state_->terminal.set_status("");
     if (!state_->logger) return;
     state_->logger->flush();
     state_->logger.reset();
     if (state_->incomplete)
-        throw Error("cannot write " + state_->file.final_path().string() + "; is the disk full?");
+        throw Error("cannot write " + state_->file.final_path().string() +
+                    "; is the disk full? Free some space, or give another folder with --out");
     state_->file.commit();
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "run_folder.hpp"
+
 namespace petal {
 
 void RunRecorder::log(const std::string& stage, LogLevel level, const std::string& message) {
@@ -52,6 +54,7 @@ void RunRecorder::claim_product(const std::string& stage, const std::filesystem:
     if (!is_new)
         throw Error("'" + name.string() + "' is written by stage '" + taken->second +
                     "' already; give each product a name of its own");
+    note_product(settings_.folder, name);
 }
 
 bool RunRecorder::debug(const std::string& stage) const {

@@ -47,11 +47,28 @@ Json notes_json(const std::vector<ToldNote>& notes) {
     return list;
 }
 
-Json data_json(const std::filesystem::path& file) {
+Json data_json(const RunReport& report) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < report.used_files.size(); ++i) {
+        Json entry{{"file", report.used_files[i].string()}};
+        const Checksum sum =
+            i < report.checksums.size() ? report.checksums[i] : Checksum{"", "not computed"};
+        if (sum.missing.empty()) {
+            entry["sha256"] = sum.sha256;
+        } else {
+            entry["sha256"] = nullptr;
+            entry["error"] = sum.missing;
+        }
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+Checksum checksum_of(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
     try {
-        return {{"file", file.string()}, {"sha256", sha256_of(file)}};
+        return {sha256_of(file, cancel), ""};
     } catch (const Error& error) {
-        return {{"file", file.string()}, {"sha256", nullptr}, {"error", error.what()}};
+        return {"", error.what()};
     }
 }
 
@@ -94,7 +111,7 @@ std::string to_string(const Note& note) {
     return text;
 }
 
-std::string sha256_of(const std::filesystem::path& file) {
+std::string sha256_of(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw Error("cannot read " + file.string() + " for its checksum");
     const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
@@ -102,6 +119,7 @@ std::string sha256_of(const std::filesystem::path& file) {
     EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
     std::vector<char> block(1 << 16);
     while (in) {
+        if (cancel != nullptr && cancel->load()) throw Cancelled();
         in.read(block.data(), static_cast<std::streamsize>(block.size()));
         EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount()));
     }
@@ -117,14 +135,24 @@ std::string sha256_of(const std::filesystem::path& file) {
     return text;
 }
 
+void add_checksums(RunReport& report, const std::atomic<bool>* cancel) {
+    const Checksum none{"", "not computed: the run was cancelled"};
+    report.checksums.assign(report.used_files.size(), none);
+    if (report.status == RunStatus::cancelled) return;
+    try {
+        for (std::size_t i = 0; i < report.used_files.size(); ++i)
+            report.checksums[i] = checksum_of(report.used_files[i], cancel);
+    } catch (const Cancelled&) {
+        if (report.status == RunStatus::done) report.status = RunStatus::cancelled;
+    }
+}
+
 std::string to_json(const RunReport& report, const Pipeline& pipeline) {
     Json verdicts = Json::array();
     for (const ToldVerdict& told : report.verdicts)
         verdicts.push_back({{"stage", told.stage},
                             {"level", petal::to_string(told.level)},
                             {"reasons", told.reasons}});
-    Json data = Json::array();
-    for (const auto& file : report.used_files) data.push_back(data_json(file));
     Json products = Json::array();
     for (const auto& product : report.products) products.push_back(product.string());
     Json stages = Json::object();
@@ -145,7 +173,7 @@ std::string to_json(const RunReport& report, const Pipeline& pipeline) {
               {"threads", report.threads},
               {"frames", report.frames},
               {"versions", {{"petal", version()}, {"plugins", plugins_json(pipeline)}}},
-              {"data", std::move(data)},
+              {"data", data_json(report)},
               {"products", std::move(products)},
               {"wall_s", report.wall_s},
               {"cpu_s", report.cpu_s},

@@ -8,13 +8,17 @@
 #include <time.h>
 
 #include <chrono>
+#include <optional>
 
 #include "run_recorder.hpp"
 #include "scheduler.hpp"
+#include "ticker.hpp"
 
 namespace petal {
 
 namespace {
+
+constexpr std::chrono::milliseconds kTellEvery{200};
 
 double process_cpu_seconds() {
     timespec now{};
@@ -41,7 +45,15 @@ RunReport run_pipeline(const Pipeline& pipeline, const RunSettings& settings, Ru
     report.threads = settings.threads;
     {
         Scheduler scheduler(pipeline, settings, recorder);
+        std::optional<Ticker> ticker;
+        if (settings.on_progress)
+            ticker.emplace(kTellEvery, [&] {
+                RunProgress progress = scheduler.progress();
+                progress.elapsed_s = seconds_since(start);
+                settings.on_progress(progress);
+            });
         scheduler.run();
+        ticker.reset();
         scheduler.fill(report);
     }
     recorder.fill(report, pipeline);

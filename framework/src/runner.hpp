@@ -13,6 +13,7 @@
 
 #include "pipeline.hpp"
 #include "run_log.hpp"
+#include "run_progress.hpp"
 #include "run_report.hpp"
 
 namespace petal {
@@ -23,6 +24,8 @@ struct RunSettings {
     std::filesystem::path folder;  ///< prepared with prepare_run_folder()
     /// Told the number of threads before the first stage fires (PluginSet::thread_limits).
     std::vector<std::function<void(int)>> thread_limits;
+    /// Told a few times a second how far the run is, on a thread of its own. May be empty.
+    std::function<void(const RunProgress&)> on_progress;
     const std::atomic<bool>* cancel = nullptr;  ///< set from a signal handler; may be null
 };
 

@@ -9,7 +9,8 @@
 namespace petal {
 
 /// Writes `content` to `path`, replacing what is there. For the path that Run::save and Run::output
-/// hand out. \throws Error naming the file when it cannot be opened, or the disk is full.
+/// hand out. \throws Error naming the file (by the name that it gets in the end) when it cannot be
+/// opened, or the disk is full.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// A file that appears whole or not at all. It is written under a temporary name in the same folder
@@ -22,6 +23,9 @@ class PendingFile {
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
     ~PendingFile();
+
+    /// The name under which it is written until commit().
+    static std::filesystem::path temporary_of(const std::filesystem::path& final_path);
 
     const std::filesystem::path& path() const { return temporary_; }
     const std::filesystem::path& final_path() const { return final_; }
