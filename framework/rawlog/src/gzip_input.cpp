@@ -133,6 +133,7 @@ bool GzipInput::at_end() {
 void GzipInput::begin_object() {
     object_begin_ = position_;
     head_.clear();
+    claims_.begin_object();
 }
 
 size_t GzipInput::Read(void* buffer, size_t count) {
@@ -155,6 +156,13 @@ size_t GzipInput::Read(void* buffer, size_t count) {
     position_ += done;
     if (head_.size() < kHeadBytes)
         head_.append(static_cast<const char*>(buffer), std::min(done, kHeadBytes - head_.size()));
+    if (done == count && done > 0) {
+        const std::string wrong = claims_.after_read(buffer, count, can_follow());
+        if (!wrong.empty()) {
+            if (failure_.empty()) failure_ = wrong;
+            throw Error(wrong);
+        }
+    }
     return done;
 }
 

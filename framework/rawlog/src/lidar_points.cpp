@@ -12,6 +12,7 @@
 
 #include <cmath>
 
+#include "mrpt_message.hpp"
 #include "petal/error.hpp"
 
 namespace petal {
@@ -26,6 +27,8 @@ void add(CPointsMapXYZI& points, float x, float y, float z, float intensity) {
 }
 
 void append(const CObservationPointCloud& cloud, CPointsMapXYZI& points) {
+    if (!cloud.pointcloud)
+        throw Error("a cloud of sensor '" + cloud.sensorLabel + "' holds no points map");
     const auto& from = *cloud.pointcloud;
     const auto* with_intensity = dynamic_cast<const CPointsMapXYZI*>(&from);
     const auto& xs = from.getPointsBufferRef_x();
@@ -46,6 +49,10 @@ void append(CObservation3DRangeScan& scan, CPointsMapXYZI& points) {
         const auto& zs = map.getPointsBufferRef_z();
         for (std::size_t i = 0; i < map.size(); ++i) add(points, xs[i], ys[i], zs[i], 0.0F);
     } else if (scan.hasPoints3D) {
+        if (scan.points3D_y.size() != scan.points3D_x.size() ||
+            scan.points3D_z.size() != scan.points3D_x.size())
+            throw Error("sensor '" + scan.sensorLabel +
+                        "' has points with unequal numbers of x, y and z; its data are damaged");
         for (std::size_t i = 0; i < scan.points3D_x.size(); ++i)
             add(points, scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i], 0.0F);
     }
@@ -78,13 +85,17 @@ void append(const CObservationRotatingScan& scan, CPointsMapXYZI& points) {
                     " rows, but MRPT 2.5 keeps no elevation angle of a row; use the scans that it "
                     "was made of, or CObservationPointCloud");
     const std::size_t columns = scan.rowCount == 1 ? scan.columnCount : 0;
+    if (scan.rangeImage.rows() < scan.rowCount || scan.rangeImage.cols() < scan.columnCount)
+        throw Error("sensor '" + scan.sensorLabel +
+                    "' has fewer ranges than its rows and columns; its data are damaged");
+    const bool lit = scan.intensityImage.rows() >= scan.rowCount &&
+                     scan.intensityImage.cols() >= scan.columnCount;
     const double step = columns > 1 ? scan.azimuthSpan / static_cast<double>(columns - 1) : 0.0;
     for (std::size_t column = 0; column < columns; ++column) {
         const auto raw = scan.rangeImage(0, column);
         if (raw == 0) continue;
         const double angle = scan.startAzimuth + step * static_cast<double>(column);
         const double range = raw * scan.rangeResolution;
-        const bool lit = scan.intensityImage.rows() > 0;
         add(points, static_cast<float>(range * std::cos(angle)),
             static_cast<float>(range * std::sin(angle)), 0.0F,
             lit ? static_cast<float>(scan.intensityImage(0, column)) / 255.0F : 0.0F);
@@ -109,7 +120,9 @@ bool has_intensity(const CObservation& observation) {
     return dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr;
 }
 
-void append_lidar_points(CObservation& observation, CPointsMapXYZI& points) {
+namespace {
+
+void append_any(CObservation& observation, CPointsMapXYZI& points) {
     if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
         append(*cloud, points);
     else if (auto* range = dynamic_cast<CObservation3DRangeScan*>(&observation))
@@ -123,6 +136,21 @@ void append_lidar_points(CObservation& observation, CPointsMapXYZI& points) {
     else
         throw Error("sensor '" + observation.sensorLabel + "' (" +
                     observation.GetRuntimeClass()->className + ") gives no points");
+}
+
+}  // namespace
+
+void append_lidar_points(CObservation& observation, CPointsMapXYZI& points) {
+    try {
+        append_any(observation, points);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& e) {
+        // MRPT: sizes of images and intrinsics that do not agree, and the like.
+        throw Error("sensor '" + observation.sensorLabel + "' (" +
+                    observation.GetRuntimeClass()->className +
+                    "): MRPT makes no points of its data (" + mrpt_message(e.what()) + ")");
+    }
     points.mark_as_modified();
 }
 

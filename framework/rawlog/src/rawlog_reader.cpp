@@ -15,6 +15,7 @@
 #include <cctype>
 #include <utility>
 
+#include "mrpt_message.hpp"
 #include "petal/error.hpp"
 
 namespace petal {
@@ -46,13 +47,9 @@ std::string unknown_class(const std::string& message) {
     return begin == std::string::npos ? std::string() : message.substr(begin + 1, end - begin - 1);
 }
 
-/// The message of an MRPT exception without its call stack.
-std::string first_lines(const std::string& message) {
-    const std::size_t begin = message.find("Message:");
-    std::string text = begin == std::string::npos ? message : message.substr(begin + 8);
-    text = text.substr(0, text.find('\n'));
-    const std::size_t from = text.find_first_not_of(' ');
-    return from == std::string::npos ? std::string("unknown error") : text.substr(from);
+/// A version of a known class that this MRPT does not know.
+bool unknown_version(const std::string& message) {
+    return message.find("unknown serialization version") != std::string::npos;
 }
 
 }  // namespace
@@ -101,15 +98,18 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::read_object() {
         const std::string unknown = unknown_class(e.what());
         const std::string where = (name.empty() ? std::string("the object") : name) +
                                   " that begins at byte " + std::to_string(stream_.object_begin());
+        if (objects_ == 0 && name.empty() && (!stream_.compressed() || stream_.failure().empty()))
+            fail("it does not begin with an MRPT object; is it a rawlog?");
         if (!stream_.failure().empty())
             fail("it breaks inside " + where + ": " + stream_.failure() + "; copy the file again");
         if (!unknown.empty())
             fail("class " + unknown + " (in " + where +
                  ") is not known to this MRPT; a newer one wrote it. Convert it there to a class "
                  "that MRPT 2.5 has");
-        if (objects_ == 0 && name.empty())
-            fail("it does not begin with an MRPT object; is it a rawlog?");
-        fail("it is damaged inside " + where + " (" + first_lines(e.what()) +
+        if (unknown_version(e.what()))
+            fail(where + " has a version that this MRPT does not know (" + mrpt_message(e.what()) +
+                 "); a newer MRPT wrote it, or the file is damaged");
+        fail("it is damaged inside " + where + " (" + mrpt_message(e.what()) +
              "); copy the file again");
     }
     using namespace mrpt::obs;
@@ -194,7 +194,7 @@ void RawlogReader::load(mrpt::obs::CObservation& observation) {
         throw;
     } catch (const std::exception& e) {
         throw Error("rawlog " + file_.string() + ": the data of sensor '" + label +
-                    "' cannot be loaded: " + first_lines(e.what()));
+                    "' cannot be loaded: " + mrpt_message(e.what()));
     }
 }
 

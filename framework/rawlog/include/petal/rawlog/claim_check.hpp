@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace petal {
+
+/// Follows what MRPT reads of an object, and tells a count that cannot be true.
+///
+/// MRPT makes room for what a count claims before it reads it: one damaged byte may ask for 64 GB.
+/// The places where the large counts stand are known here for the classes that petal works with
+/// (points, ranges, images, labels), by the sizes of the reads since the last class header. A
+/// class, or a version of it, that is not known here is not checked, and never refused.
+class ClaimCheck {
+   public:
+    void begin_object();
+    /// Told of each read of the object in work. \param can_follow bytes that can still come.
+    /// \returns what is wrong, in plain words; empty where nothing is.
+    std::string after_read(const void* bytes, std::size_t count, std::uint64_t can_follow);
+
+   private:
+    bool is_header(const void* bytes, std::size_t count);
+
+    std::string outer_;            ///< class of the object (in a sensory frame: of the observation)
+    std::string last_;             ///< class of the last header, without its namespace
+    std::string reads_;            ///< sizes since that header: 1 2 4 8, n for any other
+    std::size_t name_length_ = 0;  ///< of a class name that may come next
+    bool version_next_ = false;
+    std::uint32_t value_ = 0;     ///< of the last read of 2 or 4 bytes
+    std::uint32_t previous_ = 0;  ///< of that before it
+};
+
+}  // namespace petal

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "petal/rawlog/claim_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <regex>
+
+namespace petal {
+namespace {
+
+// More than this in one field of one object is damage, however large the file is: 89 million
+// points, or an image of 19000 x 19000 pixels.
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30U;
+// Claims below are not worth a look.
+constexpr std::uint64_t kSmall = std::uint64_t{1} << 16U;
+
+/// How the last read, or the last two, are to be understood.
+enum class Meaning {
+    count,      ///< so many elements follow
+    area,       ///< rows and columns: so many elements follow
+    raw_image,  ///< width and height, both negative where the pixels follow as they are
+};
+
+/// A place where a count stands.
+struct Place {
+    const char* outer;    ///< class of the object; "" for any
+    const char* last;     ///< class of the last header
+    const char* reads;    ///< regular expression of the sizes since, the count's own included
+    std::uint64_t bytes;  ///< of an element in the file, at least
+    Meaning meaning;
+};
+
+constexpr std::array kPlaces = {
+    Place{"", "CSimplePointsMap", "4", 12, Meaning::count},
+    Place{"", "CPointsMapXYZI", "4", 12, Meaning::count},
+    Place{"", "CColouredPointsMap", "4", 12, Meaning::count},
+    Place{"", "CColouredPointsMap", "4...4(.4)?(.4)?", 4, Meaning::count},
+    Place{"", "CWeightedPointsMap", "4", 12, Meaning::count},
+    Place{"CObservationPointCloud", "CObservationPointCloud", "4", 1, Meaning::count},  // label
+    Place{"CObservationPointCloud", "CPose3D", "8+114", 1, Meaning::count},  // external file
+    Place{"CObservation2DRangeScan", "CPose3D", "8+14", 4, Meaning::count},
+    Place{"CObservation2DRangeScan", "CPose3D", "8+14..4844", 1, Meaning::count},  // label
+    Place{"CObservation3DRangeScan", "CPose3D", "8+114", 12, Meaning::count},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+11(4|4.....)?1444", 2, Meaning::area},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1484", 1, Meaning::count},  // label
+    Place{"CObservationVelodyneScan", "CObservationVelodyneScan", "84", 1, Meaning::count},
+    Place{"CObservationVelodyneScan", "CPose3D", "8+14", 1206, Meaning::count},  // packets
+    Place{"CObservationVelodyneScan", "CPose3D", "8+14.4", 72, Meaning::count},  // calibration
+    Place{"CObservationVelodyneScan", "CPose3D", "8+14.4.4(44?4?)?", 1, Meaning::count},
+    Place{"CObservationRotatingScan", "CObservationRotatingScan", "84", 1, Meaning::count},
+    Place{"CObservationRotatingScan", "CObservationRotatingScan", "84.?2288884", 1, Meaning::count},
+    Place{"CObservationRotatingScan", "CPose3D", "8+18122", 2, Meaning::area},
+    Place{"CObservationRotatingScan", "CPose3D", "8+18122.22", 1, Meaning::area},
+    Place{"", "CImage", "1144", 3, Meaning::raw_image},
+    Place{"", "CImage", "11444", 1, Meaning::count},                              // a JPEG's bytes
+    Place{"", "CImage", "114444", 1, Meaning::count},                             // grey pixels
+    Place{"", "CImage", "14", 1, Meaning::count},                                 // external file
+    Place{"CObservationImage", "CImage", "1.*184", 1, Meaning::count},            // label
+    Place{"CObservationStereoImages", "CPose3DQuat", "8+14", 1, Meaning::count},  // label
+    Place{"CObservationOdometry", "CPose2D", "8+14", 1, Meaning::count},          // label
+    Place{"CObservationIMU", "CPose3D", "8+1.8.4", 1, Meaning::count},            // label
+    Place{"CObservationComment", "CObservationComment", "4", 1, Meaning::count},
+    Place{"", "TCamera", "8+444", 1, Meaning::count},  // name
+    Place{"", "CMatrixD", "44", 8, Meaning::area},
+    Place{"", "CMatrixF", "44", 4, Meaning::area},
+    Place{"", "CSensoryFrame", "4", 2, Meaning::count},
+    Place{"", "CActionCollection", "4", 2, Meaning::count},
+};
+
+char token(std::size_t count) {
+    return count == 1 || count == 2 || count == 4 || count == 8 ? static_cast<char>('0' + count)
+                                                                : 'n';
+}
+
+std::string without_namespace(const std::string& name) {
+    const std::size_t colons = name.rfind("::");
+    return colons == std::string::npos ? name : name.substr(colons + 2);
+}
+
+const std::regex& expression(std::size_t place) {
+    static const auto kAll = [] {
+        std::array<std::regex, kPlaces.size()> all;
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::regex(kPlaces[i].reads);
+        return all;
+    }();
+    return kAll[place];
+}
+
+/// Elements that the last reads claim.
+std::uint64_t claimed(Meaning meaning, std::uint32_t previous, std::uint32_t value) {
+    if (meaning == Meaning::count) return value;
+    if (meaning == Meaning::area) return std::uint64_t{previous} * value;
+    const auto width = static_cast<std::int32_t>(previous);
+    const auto height = static_cast<std::int32_t>(value);
+    if (width >= 0 || height >= 0) return 0;
+    return static_cast<std::uint64_t>(-std::int64_t{width}) *
+           static_cast<std::uint64_t>(-std::int64_t{height});
+}
+
+}  // namespace
+
+void ClaimCheck::begin_object() {
+    outer_.clear();
+    last_.clear();
+    reads_.clear();
+    name_length_ = 0;
+    version_next_ = false;
+}
+
+bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
+    if (version_next_) {
+        version_next_ = false;
+        return count == 1;
+    }
+    if (name_length_ == 0 || count != name_length_) return false;
+    const std::string name(static_cast<const char*>(bytes), count);
+    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
+    for (const char c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != ':' && c != '_') return false;
+    last_ = without_namespace(name);
+    // Of what can hold observations, the observation counts.
+    if (last_.rfind("CObservation", 0) == 0 || outer_.empty()) outer_ = last_;
+    reads_.clear();
+    version_next_ = true;
+    name_length_ = 0;
+    return true;
+}
+
+std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::uint64_t can_follow) {
+    if (is_header(bytes, count)) return {};
+    name_length_ = 0;
+    if (count == 1) {
+        const auto byte = *static_cast<const unsigned char*>(bytes);
+        if (byte > 0x80U) name_length_ = byte & 0x7FU;
+    }
+    constexpr std::size_t kMostReads = 64;  // no count of ours stands further from its header
+    if (last_.empty() || reads_.size() > kMostReads) return {};
+    reads_ += token(count);
+    if (count != 2 && count != 4) return {};
+    previous_ = value_;
+    value_ = 0;
+    std::memcpy(&value_, bytes, count);  // rawlogs are little endian, as all that petal runs on
+    if (value_ < kSmall && previous_ < kSmall && std::uint64_t{value_} * previous_ < kSmall)
+        return {};
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+        const Place& place = kPlaces[i];
+        if (last_ != place.last || (*place.outer != 0 && outer_ != place.outer)) continue;
+        if (!std::regex_match(reads_, expression(i))) continue;
+        const std::uint64_t elements = claimed(place.meaning, previous_, value_);
+        if (elements > can_follow / place.bytes)
+            return "it claims " + std::to_string(elements) + " elements of " +
+                   std::to_string(place.bytes) + " bytes or more, but at most " +
+                   std::to_string(can_follow) + " bytes can follow";
+        if (elements > kMostBytes / place.bytes)
+            return "it claims " + std::to_string(elements) + " elements of " +
+                   std::to_string(place.bytes) + " bytes or more, which no single object has";
+    }
+    return {};
+}
+
+}  // namespace petal
