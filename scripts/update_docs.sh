@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the petal authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Writes docs/stages/*.md and the stage table of the README from the stages' declarations.
+# Writes docs/stages/*.md, the stage table of the README and the JSON schemas in pipelines/ from the stages'
+# declarations.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -20,3 +21,5 @@ mkdir -p docs/stages
 rm -f docs/stages/*.md
 cp "$pages"/stages/*.md docs/stages/
 sed -i -e '/<!-- stages:begin -->/,/<!-- stages:end -->/{//!d}' -e "/<!-- stages:begin -->/r $pages/table" README.md
+build/bin/petal schema --out pipelines/petal.schema.json
+build/bin/petal schema --patch --out pipelines/petal.patch.schema.json
