@@ -52,8 +52,8 @@ std::optional<JsonNode> read_set_option(const std::string& option, std::size_t f
     if (is_bare_word(text)) {
         problems.add(origin, path,
                      "'" + printable(text) +
-                         "' is no JSON; a string needs its own quotes: --set '" + stage + "." +
-                         param + "=\"" + printable(text) + "\"'");
+                         "' is no JSON; a string needs its own quotes: --set '" + printable(stage) +
+                         "." + printable(param) + "=\"" + printable(text) + "\"'");
         return std::nullopt;
     }
     ProblemList own;
