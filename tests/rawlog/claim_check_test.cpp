@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "petal/rawlog/claim_check.hpp"
+
+#include <gmock/gmock.h>
+#include <mrpt/maps/CColouredPointsMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/maps/CWeightedPointsMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationStereoImages.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <cstring>
+
+#include "petal/rawlog/rawlog_reader.hpp"
+#include "plugins/sources/temporary_folder.hpp"
+#include "rawlog_bytes.hpp"
+
+namespace petal::testing {
+namespace {
+
+using namespace mrpt::obs;
+using ::testing::HasSubstr;
+
+struct Case {
+    std::string name;
+    mrpt::serialization::CSerializable::Ptr object;
+    std::string count;  ///< the bytes of a count in it
+};
+
+std::string number(std::uint32_t value) {
+    std::string bytes(4, '\0');
+    std::memcpy(bytes.data(), &value, 4);
+    return bytes;
+}
+
+template <class Map>
+mrpt::serialization::CSerializable::Ptr with_map() {
+    auto observation = cloud("LIDAR", 0.0);
+    auto map = Map::Create();
+    for (int i = 0; i < 201; ++i) map->insertPoint(1.0F, 2.0F, 3.0F);
+    observation->pointcloud = map;
+    return observation;
+}
+
+/// Counts of 201 or more: of points, ranges and pixels, and a label of 203 characters.
+std::vector<Case> cases() {
+    const std::string label(203, 'L');
+    const std::string points = number(201);
+    std::vector<Case> all = {
+        {"xyzi", with_map<mrpt::maps::CPointsMapXYZI>(), points},
+        {"simple", with_map<mrpt::maps::CSimplePointsMap>(), points},
+        {"coloured", with_map<mrpt::maps::CColouredPointsMap>(), points},
+        {"weighted", with_map<mrpt::maps::CWeightedPointsMap>(), points},
+        {"cloud's label", cloud(label, 0.0), number(203)},
+        {"image's label", image(label, 0.0), number(203)},
+        {"image's pixels", image("CAMERA", 0.0), number(60 * 40)},
+    };
+    auto colour = image("CAMERA", 0.0);
+    colour->image.resize(202, 201, mrpt::img::CH_RGB);
+    all.push_back({"colour image", colour, number(static_cast<std::uint32_t>(-201))});
+    auto outside = image("CAMERA", 0.0);
+    outside->image.setExternalStorage(std::string(203, 'f'));
+    all.push_back({"external image", outside, number(203)});
+    auto laser = CObservation2DRangeScan::Create();
+    laser->resizeScan(201);
+    laser->sensorLabel = label;
+    all.push_back({"laser's ranges", laser, points});
+    all.push_back({"laser's label", laser, number(203)});
+    auto depth = CObservation3DRangeScan::Create();
+    depth->hasPoints3D = true;
+    depth->resizePoints3DVectors(201);
+    depth->sensorLabel = label;
+    all.push_back({"depth's points", depth, points});
+    all.push_back({"depth's label", depth, number(203)});
+    auto ranges = CObservation3DRangeScan::Create();
+    ranges->hasRangeImage = true;
+    ranges->rangeImage_setSize(201, 202);
+    ranges->cameraParams.nrows = 201;
+    ranges->cameraParams.ncols = 202;
+    all.push_back({"depth's rows", ranges, points + number(202)});
+    auto velodyne = CObservationVelodyneScan::Create();
+    velodyne->scan_packets.resize(201);
+    velodyne->sensorLabel = label;
+    all.push_back({"Velodyne's packets", velodyne, points});
+    all.push_back({"Velodyne's label", velodyne, number(203)});
+    auto stereo = CObservationStereoImages::Create();
+    stereo->sensorLabel = label;
+    all.push_back({"stereo's label", stereo, number(203)});
+    auto odometry = CObservationOdometry::Create();
+    odometry->sensorLabel = label;
+    all.push_back({"odometry's label", odometry, number(203)});
+    auto imu = CObservationIMU::Create();
+    imu->sensorLabel = label;
+    all.push_back({"IMU's label", imu, number(203)});
+    auto comment = CObservationComment::Create();
+    comment->text = label;
+    all.push_back({"comment", comment, number(203)});
+    return all;
+}
+
+class ClaimsOfFiles : public TemporaryFolder {
+   protected:
+    std::string reading(const std::string& bytes) const {
+        return refusal([&] {
+            RawlogReader reader(write("a.rawlog", bytes));
+            while (reader.next()) continue;
+        });
+    }
+};
+
+// A sound object is read, and the same with its count made huge is told, not tried: 0xBF..... times
+// 12 bytes are 38 GB. In a sensory frame too.
+TEST_F(ClaimsOfFiles, HugeCountsAreToldAndSoundOnesRead) {
+    for (const Case& each : cases())
+        for (const bool framed : {false, true}) {
+            auto object = each.object;
+            if (framed) {
+                auto frame = CSensoryFrame::Create();
+                frame->insert(std::dynamic_pointer_cast<CObservation>(each.object));
+                object = frame;
+            }
+            const std::string bytes = bytes_of_objects({object});
+            EXPECT_EQ(reading(bytes), "accepted") << each.name;
+            EXPECT_EQ(reading(gzipped(bytes)), "accepted") << each.name;
+            const std::size_t found = bytes.find(each.count);
+            ASSERT_NE(found, std::string::npos) << each.name;
+            std::string changed = bytes;
+            // A width and a height are negative already where the pixels follow as they are.
+            changed[found + 3] = each.name == "colour image" ? '\x81' : '\x3F';
+            for (const std::string& file : {changed, gzipped(changed)})
+                EXPECT_THAT(reading(file),
+                            AllOf(HasSubstr("it claims"), HasSubstr("0 objects"),
+                                  HasSubstr(framed ? "CSensoryFrame" : "CObservation")))
+                    << each.name;
+        }
+}
+
+TEST_F(ClaimsOfFiles, AFrameOfBillionsOfObservationsIsTold) {
+    for (const mrpt::serialization::CSerializable::Ptr& object :
+         {mrpt::serialization::CSerializable::Ptr(CSensoryFrame::Create()),
+          mrpt::serialization::CSerializable::Ptr(CActionCollection::Create())}) {
+        std::string bytes = bytes_of_objects({object});
+        bytes[bytes.size() - 2] = '\x7F';  // the last byte of the count; the end flag follows
+        EXPECT_THAT(reading(bytes), HasSubstr("it claims"));
+    }
+}
+
+TEST(Claims, ARotatingScanOf65535RowsAndColumns) {
+    ClaimCheck check;
+    check.begin_object();
+    const auto read = [&](const std::string& bytes) {
+        return check.after_read(bytes.data(), bytes.size(), 1000);
+    };
+    const auto header = [&](const std::string& name) {
+        EXPECT_EQ(read(std::string(1, static_cast<char>(0x80U + name.size()))), "");
+        EXPECT_EQ(read(name), "");
+        EXPECT_EQ(read(std::string(1, '\0')), "");
+    };
+    header("mrpt::obs::CObservationRotatingScan");
+    header("mrpt::poses::CPose3D");
+    for (int i = 0; i < 7; ++i) EXPECT_EQ(read(std::string(8, '\0')), "");
+    EXPECT_EQ(read(std::string(1, '\0')), "");
+    EXPECT_EQ(read(std::string(8, '\0')), "");
+    EXPECT_EQ(read(std::string(1, '\0')), "");
+    EXPECT_EQ(read(std::string(2, '\xFF')), "");
+    EXPECT_THAT(read(std::string(2, '\xFF')), HasSubstr("it claims"));
+}
+
+TEST(Claims, WhatIsNotKnownIsNotRefused) {
+    ClaimCheck check;
+    check.begin_object();
+    const std::string name = "CObservationOfTomorrow";
+    const std::string flag(1, static_cast<char>(0x80U + name.size()));
+    const std::string huge(4, '\xFF');
+    for (const std::string& bytes : {flag, name, std::string(1, '\0'), huge, huge, huge})
+        EXPECT_EQ(check.after_read(bytes.data(), bytes.size(), 1000), "");
+}
+
+}  // namespace
+}  // namespace petal::testing
