@@ -131,11 +131,20 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     bool parse_error(std::size_t, const std::string& last_token,
                      const nlohmann::detail::exception& error) override {
         constexpr int kNumberOverflow = 406;
-        list_.add(
-            {file_, position_.line}, path(),
-            error.id == kNumberOverflow
-                ? printable(last_token) + " does not fit a double; expected a number up to 1e308"
-                : plain_message(error.what()));
+        const bool overflow = error.id == kNumberOverflow;
+        // In a list the value that was not read is the one after those that were.
+        const bool at_value =
+            overflow || std::string_view(error.what()).find("parsing value") != std::string::npos;
+        std::string place = path();
+        if (at_value && !open_.empty() && open_.back()->is(JsonNode::Kind::array)) {
+            const std::size_t read = open_.back()->elements.size();
+            if (read > 0) place.erase(place.rfind('['));
+            place = path_join(place, read);
+        }
+        list_.add({file_, position_.line}, place,
+                  overflow ? printable(last_token) +
+                                 " does not fit a double; expected a number up to 1e308"
+                           : plain_message(error.what()));
         return false;
     }
 

@@ -158,6 +158,11 @@ TEST(JsonReader, syntax_errors_tell_line_place_and_expectation) {
          "or ','"},
         {"{\"a\": NaN}",
          "f:1: a: syntax error while parsing value - invalid literal; last read: '\"a\": N'"},
+        {"{\"a\": [1, 2, nul]}",
+         "f:1: a[2]: syntax error while parsing value - invalid literal; last read: '2, nul]'"},
+        {"{\"a\": [\n}",
+         "f:2: a[0]: syntax error while parsing value - unexpected '}'; expected '[', '{', or a "
+         "literal"},
         {"{\"a\": 'x'}",
          "f:1: a: syntax error while parsing value - invalid literal; last read: '\"a\": ''"},
         {"{\"a\": \"x\n\"}",

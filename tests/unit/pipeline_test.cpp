@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "pipeline_fakes.hpp"
@@ -228,48 +226,6 @@ TEST(Pipeline, dot_shows_types_and_rates) {
   "m" -> "o" [label="Pose", style=bold];
 }
 )");
-}
-
-class PipelineFiles : public ::testing::Test {
-   protected:
-    PipelineFiles() { std::filesystem::create_directories(folder_); }
-    ~PipelineFiles() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
-    std::filesystem::path folder_ =
-        std::filesystem::path(::testing::TempDir()) / "petal_pipeline_test";
-};
-
-TEST_F(PipelineFiles, are_read_with_their_patches) {
-    PipelineRequest request;
-    request.file = write("my pipeline.json", pipeline({kScene, kFilter}));
-    request.patches = {write("v.json", R"({"stages": {"clean": {"params": {"radius": 0.3}}}})")};
-    const CheckedPipeline checked = read_pipeline(request, registry());
-    ASSERT_TRUE(checked.pipeline);
-    EXPECT_EQ(checked.pipeline->name, "my pipeline");
-    EXPECT_EQ(std::get<double>(checked.pipeline->find("clean")->values.at("radius")), 0.3);
-}
-
-TEST_F(PipelineFiles, that_cannot_be_read_are_told_together) {
-    PipelineRequest request;
-    request.file = folder_ / "absent.json";
-    request.patches = {folder_, write("empty.json", ""),
-                       write("large.json", std::string((std::size_t{4} << 20U) + 1, ' ')),
-                       write("good.json", "{}")};
-    const CheckedPipeline checked = read_pipeline(request, registry());
-    EXPECT_FALSE(checked.pipeline);
-    std::vector<std::string> texts;
-    for (const Problem& problem : checked.problems) texts.push_back(to_string(problem));
-    const std::string at = folder_.string();
-    EXPECT_THAT(texts,
-                ElementsAre(at + "/absent.json: no such file; expected a JSON file",
-                            at + ": is a folder; expected a JSON file",
-                            at + "/empty.json:1: is empty; expected JSON",
-                            at + "/large.json: is larger than 4 MiB; expected a pipeline or a "
-                                 "patch"));
 }
 
 }  // namespace
