@@ -103,6 +103,19 @@ TEST(Loader, OneTypeInTwoLibrariesNamesBoth) {
                                HasSubstr("same_type_b/second.so")));
 }
 
+TEST(Loader, ASurveyListsBothLibrariesOfAType) {
+    const PluginSet set = survey_plugins(
+        {plugin_case("same_type_a"), plugin_case("same_type_b"), plugin_case("good")});
+    ASSERT_THAT(set.loaded, SizeIs(3));
+    EXPECT_THAT(set.loaded[1].types, ElementsAre("toys.same"));
+    EXPECT_THAT(set.registry.types(), ElementsAre("toys.good", "toys.same"));
+    EXPECT_THAT(set.registry.find("toys.same")->library, HasSubstr("first.so"));
+    EXPECT_THAT(set.clashes, ElementsAre(AllOf(HasSubstr("'toys.same'"), HasSubstr("first.so"),
+                                               HasSubstr("second.so"))));
+    EXPECT_THAT(set.refused, IsEmpty());
+    EXPECT_THAT(survey_plugins({plugin_case("good")}).clashes, IsEmpty());
+}
+
 TEST(Loader, PacketTypesOfTheLastFolderAreTheReference) {
     const PluginSet set = load_plugins({plugin_case("types_1"), plugin_case("types_2")});
     EXPECT_THAT(set.registry.types(), ElementsAre("toys.user_2"));

@@ -14,7 +14,9 @@ namespace petal {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using Outcome = ProbeResult::Outcome;
 using testing::plugin_case;
@@ -24,6 +26,7 @@ TEST(Probe, AGoodPluginIsOk) {
     const ProbeResult result = probe(plugin_file("good"));
     EXPECT_EQ(result.outcome, Outcome::ok) << result.reason;
     EXPECT_EQ(result.reason, "");
+    EXPECT_THAT(result.types, ElementsAre("toys.good"));
 }
 
 TEST(Probe, TellsWhatRegisteringThrew) {
@@ -60,6 +63,15 @@ TEST(Probe, EndsWhatHangs) {
     EXPECT_THAT(result.reason, HasSubstr("within 0.300 s"));
     // The limit and the time to kill a process; generous for a busy machine.
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST(Probe, TellsATypeThatTwoLibrariesHave) {
+    const auto all = probe_all({plugin_case("same_type_a"), plugin_case("same_type_b")});
+    ASSERT_THAT(all, SizeIs(2));
+    EXPECT_THAT(all[0].clashes, IsEmpty());
+    EXPECT_EQ(all[1].result.outcome, Outcome::ok);
+    EXPECT_THAT(all[1].clashes,
+                ElementsAre(AllOf(HasSubstr("'toys.same'"), HasSubstr("same_type_a/first.so"))));
 }
 
 TEST(Probe, GoesOnAfterACrash) {
