@@ -62,7 +62,7 @@ TEST_F(FilesStage, MakesOneScene) {
     EXPECT_EQ(images.cameras[0].camera.nrows, 6U);
     EXPECT_EQ(images.cameras[0].image.at<std::uint8_t>(7, 5, 1), 7);
     EXPECT_TRUE(harness.out<Truth>("truth").empty());
-    EXPECT_EQ(harness.written("cloud").at(0).frame.name, folder_.filename().string());
+    EXPECT_EQ(harness.written("cloud").at(0).frame->name, folder_.filename().string());
     EXPECT_EQ(harness.used_files().size(), 3U);
 }
 
@@ -130,7 +130,7 @@ TEST(RealFiles, TheIndoorScene) {
     const Images& images = harness.out<Images>("images");
     EXPECT_EQ(images.cameras.at(0).image.getWidth(), 640U);
     EXPECT_EQ(images.cameras.at(0).image.getHeight(), 540U);
-    EXPECT_EQ(harness.written("images").at(0).frame.name, "sjtu_indoor");
+    EXPECT_EQ(harness.written("images").at(0).frame->name, "sjtu_indoor");
 }
 
 }  // namespace

@@ -106,9 +106,9 @@ TEST_F(RawlogStage, AccumulatesTheMessagesOfTheOnlyLidar) {
     const Images& images = harness.out<Images>("images");
     ASSERT_EQ(images.cameras.size(), 1U);
     EXPECT_EQ(images.cameras[0].stamp, at(0.1));
-    EXPECT_EQ(harness.written("cloud").at(0).frame.name, "a");
+    EXPECT_EQ(harness.written("cloud").at(0).frame->name, "a");
     // Stamps have ticks of 100 ns; a double of 1.7e9 s resolves 240 ns.
-    EXPECT_NEAR(harness.written("cloud").at(0).frame.stamp, 1.7e9, 1e-6);
+    EXPECT_NEAR(harness.written("cloud").at(0).frame->stamp, 1.7e9, 1e-6);
     EXPECT_TRUE(harness.out<Truth>("truth").empty());
 }
 
