@@ -94,11 +94,12 @@ TEST_F(Record, OfAnotherSize) {
 
 // The number of the framework's ABI says whether the rest means what we think, so it is told first.
 TEST_F(Record, OfAnotherAbiAndSizeTellsTheAbi) {
-    put(offsetof(PluginRecord, framework_abi), 7);
+    put(offsetof(PluginRecord, framework_abi), 999);
     put(offsetof(PluginRecord, size), 999);
     ASSERT_EQ(reading(), "no error");
     const PluginRecord read = read_plugin_record(folder_.path() / "changed.so");
-    EXPECT_EQ(mismatch(read, build_key()), "framework ABI: plugin 7, petal 1");
+    EXPECT_EQ(mismatch(read, build_key()),
+              "framework ABI: plugin 999, petal " + std::to_string(kFrameworkAbi));
 }
 
 TEST_F(Record, WhoseTextNeverEnds) {

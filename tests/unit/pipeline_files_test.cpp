@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "pipeline_fakes.hpp"
 
@@ -17,15 +19,19 @@ using ::testing::ElementsAre;
 
 class PipelineFiles : public ::testing::Test {
    protected:
-    PipelineFiles() { std::filesystem::create_directories(folder_); }
+    PipelineFiles() {
+        // One for each test: they may run at the same time.
+        std::string name = ::testing::TempDir() + "petal_pipeline_XXXXXX";
+        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+        folder_ = name;
+    }
     ~PipelineFiles() override { std::filesystem::remove_all(folder_); }
 
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
         return folder_ / name;
     }
-    std::filesystem::path folder_ =
-        std::filesystem::path(::testing::TempDir()) / "petal_pipeline_test";
+    std::filesystem::path folder_;
 };
 
 TEST_F(PipelineFiles, are_read_with_their_patches) {
