@@ -35,9 +35,14 @@ std::size_t mark_not_finite(const CPointsMap& points, std::vector<bool>& drop) {
 mrpt::obs::CObservation::Ptr without(const CObservationPointCloud& cloud,
                                      const std::vector<bool>& drop) {
     const auto copy = CObservationPointCloud::Create(cloud);  // shares the points
-    copy->pointcloud =
-        std::dynamic_pointer_cast<CPointsMap>(cloud.pointcloud->duplicateGetSmartPtr());
+    const CPointsMap& from = *cloud.pointcloud;
+    copy->pointcloud = std::dynamic_pointer_cast<CPointsMap>(from.duplicateGetSmartPtr());
     copy->pointcloud->applyDeletionMask(drop);
+    // MRPT 2.5 duplicates the points only; the options are stored with the map too.
+    copy->pointcloud->insertionOptions = from.insertionOptions;
+    copy->pointcloud->likelihoodOptions = from.likelihoodOptions;
+    copy->pointcloud->renderOptions = from.renderOptions;
+    copy->pointcloud->genericMapParams = from.genericMapParams;
     copy->overrideExternalStorageFormatFlag(CObservationPointCloud::ExternalStorageFormat::None);
     return copy;
 }

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationStereoImages.h>
+#include <mrpt/serialization/CSerializable.h>
 
 #include <set>
 #include <string>
@@ -112,6 +115,28 @@ TEST(Packets, AnObservationKeepsItsPoseAndIsNeverNull) {
     EXPECT_GT(PacketTraits<Observation>::bytes(observation), 16U);
     Observation none;
     EXPECT_THROW(PacketTraits<Observation>::seal(none), Error);
+}
+
+// Setting the sensor's pose to what it is would round a quaternion, and give all beacons one place.
+TEST(Packets, SealingAnObservationChangesNoByteOfIt) {
+    auto stereo = mrpt::obs::CObservationStereoImages::Create();
+    stereo->cameraPose =
+        mrpt::poses::CPose3DQuat(mrpt::poses::CPose3D(0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
+    auto beacons = mrpt::obs::CObservationBeaconRanges::Create();
+    for (int i = 0; i < 2; ++i) {
+        mrpt::obs::CObservationBeaconRanges::TMeasurement measurement;
+        measurement.sensorLocationOnRobot = mrpt::poses::CPoint3D(i, 0.0, 0.0);
+        beacons->sensedData.push_back(measurement);
+    }
+    for (const mrpt::obs::CObservation::Ptr& each :
+         {mrpt::obs::CObservation::Ptr(stereo), mrpt::obs::CObservation::Ptr(beacons)}) {
+        std::vector<std::uint8_t> before, after;
+        mrpt::serialization::ObjectToOctetVector(each.get(), before);
+        Observation observation{each};
+        PacketTraits<Observation>::seal(observation);
+        mrpt::serialization::ObjectToOctetVector(each.get(), after);
+        EXPECT_EQ(before, after) << each->GetRuntimeClass()->className;
+    }
 }
 
 TEST(Packets, DecisionsHaveWords) {

@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -22,11 +22,13 @@
 #include "petal/calibration/truth_json.hpp"
 #include "petal/error.hpp"
 #include "petal/testing/stage_harness.hpp"
+#include "rawlog_objects.hpp"
 
 namespace petal {
 namespace {
 
 using namespace mrpt::obs;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::StageHarness;
 namespace fs = std::filesystem;
@@ -80,14 +82,7 @@ Images example_images() {
 }
 
 std::vector<CObservation::Ptr> read_all(const fs::path& file) {
-    std::vector<CObservation::Ptr> all;
-    mrpt::io::CFileGZInputStream stream(file.string());
-    auto archive = mrpt::serialization::archiveFrom(stream);
-    try {
-        while (true) all.push_back(std::dynamic_pointer_cast<CObservation>(archive.ReadObject()));
-    } catch (const mrpt::serialization::CExceptionEOF&) {
-    }
-    return all;
+    return testing::observations_of(testing::read_rawlog(file));
 }
 
 /// Bit for bit, so that a NaN is like itself.
@@ -178,6 +173,60 @@ TEST(RawlogSinkStage, WritesObservationsAsTheyAre) {
     const auto all = read_all(stage.folder() / "scene.rawlog");
     ASSERT_EQ(all.size(), 3U);
     EXPECT_EQ(all[2]->sensorLabel, "L2");
+}
+
+TEST(RawlogSinkStage, WritesTheLayoutThatWasRead) {
+    const auto imu = [](const std::string& label) {
+        auto observation = CObservationIMU::Create();
+        observation->sensorLabel = label;
+        return observation;
+    };
+    const auto action = CActionCollection::Create();
+    Observation first{imu("a")}, last{imu("b")}, alone{imu("c")};
+    first.place.before = {action};
+    first.place.in_frame = last.place.in_frame = last.place.ends_frame = true;
+    alone.place.before = {action, CSensoryFrame::Create()};
+    alone.place.after = {action};
+    StageHarness stage = StageHarness::of<RawlogSink>();
+    for (const Observation& each : {first, last, alone}) stage.give("observation", each);
+    stage.fire();
+    CSensoryFrame both;
+    both.insert(first.observation);
+    both.insert(last.observation);
+    using testing::object_bytes;
+    EXPECT_THAT(object_bytes(testing::read_rawlog(stage.folder() / "scene.rawlog")),
+                ElementsAre(object_bytes(*action), object_bytes(both), object_bytes(*action),
+                            object_bytes(CSensoryFrame()), object_bytes(*alone.observation),
+                            object_bytes(*action)));
+    EXPECT_THAT(stage.logs().back(), HasSubstr("3 observations"));
+}
+
+// What a filter that knows nothing of places makes of them still comes out whole.
+TEST(RawlogSinkStage, AFrameThatIsNotEndedIsWritten) {
+    Observation first{CObservationIMU::Create()};
+    first.place.in_frame = true;
+    StageHarness stage = StageHarness::of<RawlogSink>();
+    stage.give("observation", first);
+    stage.give("observation", Observation{CObservationIMU::Create()});
+    stage.give("observation", first);
+    stage.fire();
+    const auto all = testing::read_rawlog(stage.folder() / "scene.rawlog");
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_TRUE(std::dynamic_pointer_cast<CSensoryFrame>(all[0]));
+    EXPECT_TRUE(std::dynamic_pointer_cast<CObservationIMU>(all[1]));
+    EXPECT_TRUE(std::dynamic_pointer_cast<CSensoryFrame>(all[2]));
+}
+
+TEST(RawlogSinkStage, ObservationsAreOfNoScene) {
+    StageHarness stage = StageHarness::of<RawlogSink>();
+    stage.set("file", "{scene}.rawlog");
+    stage.give("observation", Observation{CObservationIMU::Create()});
+    try {
+        stage.fire();
+        FAIL() << "a file for each observation";
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("{scene}"));
+    }
 }
 
 TEST(RawlogSinkStage, TheTruthLiesBeside) {
