@@ -92,14 +92,14 @@ void Firing::publish(std::string_view port, AnyPacket packet) {
     std::size_t index = 0;
     while (index < spec_.outputs.size() && spec_.outputs[index].name != port) ++index;
     if (index == spec_.outputs.size())
-        throw Error("the stage wrote on port '" + std::string(port) +
-                    "', which it does not declare as an output");
+        throw StageFault("the stage wrote on port '" + std::string(port) +
+                         "', which it does not declare as an output");
     const PortSpec& declared = spec_.outputs[index];
     if (!packet.holds(declared.type))
-        throw Error("the stage wrote " + std::string(packet ? packet.type : "no value") +
-                    " on port '" + declared.name + "', which it declares as " + declared.type);
+        throw StageFault("the stage wrote " + std::string(packet ? packet.type : "no value") +
+                         " on port '" + declared.name + "', which it declares as " + declared.type);
     if (outputs_[index])
-        throw Error("the stage wrote port '" + declared.name + "' twice for one frame");
+        throw StageFault("the stage wrote port '" + declared.name + "' twice for one frame");
     outputs_[index] = std::move(packet);
 }
 
@@ -112,13 +112,15 @@ const std::string* Firing::written_port() const {
 OutputPackets Firing::take_outputs() {
     if (ended_) {
         if (const std::string* port = written_port())
-            throw Error("the stage wrote port '" + *port + "' in the call that ended its data");
+            throw StageFault("the stage wrote port '" + *port +
+                             "' in the call that ended its data");
         return {};
     }
     for (std::size_t i = 0; i < outputs_.size(); ++i)
         if (!outputs_[i])
-            throw Error("the stage wrote no packet on port '" + spec_.outputs[i].name +
-                        "'; a stage that finds nothing writes an empty " + spec_.outputs[i].type);
+            throw StageFault("the stage wrote no packet on port '" + spec_.outputs[i].name +
+                             "'; a stage that finds nothing writes an empty " +
+                             spec_.outputs[i].type);
     // Last: a source may name its frame before or after it writes.
     if (!shared_frame_) shared_frame_ = std::make_shared<const FrameInfo>(own_frame_);
     for (AnyPacket& packet : outputs_) packet.frame = shared_frame_;
@@ -127,18 +129,19 @@ OutputPackets Firing::take_outputs() {
 
 void Firing::expect_no_outputs() const {
     if (const std::string* port = written_port())
-        throw Error("the stage wrote port '" + *port +
-                    "' in finish(), where nobody can read it; only stages that gather write there");
+        throw StageFault(
+            "the stage wrote port '" + *port +
+            "' in finish(), where nobody can read it; only stages that gather write there");
 }
 
 void Firing::set_frame(std::string name, double stamp) {
-    if (!spec_.is_source()) throw Error("set_frame() is for sources: this stage has inputs");
+    if (!spec_.is_source()) throw StageFault("set_frame() is for sources: this stage has inputs");
     own_frame_.name = std::move(name);
     own_frame_.stamp = stamp;
 }
 
 void Firing::end_of_data() {
-    if (!spec_.is_source()) throw Error("end_of_data() is for sources: this stage has inputs");
+    if (!spec_.is_source()) throw StageFault("end_of_data() is for sources: this stage has inputs");
     ended_ = true;
 }
 

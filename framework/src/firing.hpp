@@ -49,6 +49,12 @@ using PortPackets = std::vector<PortInput>;
 /// What a firing wrote, for each output port in the order of the declaration.
 using OutputPackets = std::vector<AnyPacket>;
 
+/// A stage breaks the contract of its ports: a fault of the stage, not of its input.
+class StageFault : public Error {
+   public:
+    using Error::Error;
+};
+
 /// One call of a stage's run() or finish(): its packets in, its packets out.
 class Firing final : public Run {
    public:

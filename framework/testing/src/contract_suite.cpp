@@ -3,31 +3,27 @@
 
 #include "petal/testing/contract_suite.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "contract_firing.hpp"
 #include "declaration_check.hpp"
+#include "param_values.hpp"
 #include "petal/error.hpp"
-#include "petal/run.hpp"
 #include "petal/testing/stage_harness.hpp"
 
 namespace petal::testing {
 
 namespace {
 
-/// How one firing ended, and what it wrote.
-struct Outcome {
-    enum class End { wrote, refused, cancelled, broke };
-    End end = End::wrote;
-    std::string message;
-    std::map<std::string, std::vector<std::size_t>>
-        sizes;  ///< bytes of each packet, by output port
+using End = FiringOutcome::End;
 
-    bool operator==(const Outcome& other) const {
-        return end == other.end && message == other.message && sizes == other.sizes;
-    }
-};
+/// What a cancelled stage may take. Far more than one that polls needs on a busy machine.
+constexpr double kSoon = 2.0;  // s
+/// With extreme parameters a stage may have work for hours: it is asked to stop.
+constexpr double kEdgeTime = 0.5;  // s
 
 class Suite {
    public:
@@ -36,14 +32,27 @@ class Suite {
     std::vector<Violation> run() {
         for (const std::string& fault : declaration_faults(spec_))
             violate("complete declaration", fault);
+        check_contents();
         check_parameters();
+        if (!violations_.empty()) return violations_;  // the rest takes the declaration at its word
         for (const std::string& name : input_names()) check_input(name);
+        for (const ParamSpec& param : spec_.params) check_edges(param);
         return violations_;
     }
 
    private:
     void violate(const std::string& rule, const std::string& what) {
         violations_.push_back({rule, what});
+    }
+
+    void check_contents() {
+        std::set<std::string> types;
+        for (const auto* ports : {&spec_.inputs, &spec_.outputs})
+            for (const PortSpec& port : *ports) types.insert(port.type);
+        for (const std::string& type : types)
+            if (inputs_.contents.count(type) == 0)
+                violate("contents", "no content function for packets of type " + type +
+                                        "; give one with ContractInputs::add_content");
     }
 
     /// True when the harness takes the value.
@@ -115,61 +124,118 @@ class Suite {
         return names;
     }
 
-    /// The packet of that name for a port, else its "empty"; none where the type is unknown.
+    /// The packet of that name for a port, else its "typical", else its "empty"; none where the
+    /// type is unknown.
     AnyPacket packet_for(const PortSpec& port, const std::string& name) const {
         const auto type = inputs_.packets.find(port.type);
         if (type == inputs_.packets.end()) return {};
-        auto maker = type->second.find(name);
-        if (maker == type->second.end()) maker = type->second.find("empty");
-        return maker == type->second.end() ? AnyPacket{} : maker->second();
+        for (const std::string& one : {name, std::string("typical"), std::string("empty")})
+            if (const auto maker = type->second.find(one); maker != type->second.end())
+                return maker->second();
+        return {};
+    }
+
+    /// False where a port that must be wired has no packet.
+    bool packets_for(const std::string& name, GivenPackets& given) {
+        for (const PortSpec& port : spec_.inputs) {
+            AnyPacket packet = packet_for(port, name);
+            if (!packet && !port.optional) {
+                violate("inputs", "no '" + name + "' packet of type " + port.type + " to try");
+                return false;
+            }
+            if (packet) given.emplace_back(port.name, std::move(packet));
+        }
+        return true;
+    }
+
+    std::string content_of_all(const GivenPackets& given) const {
+        std::string content;
+        for (const auto& [port, packet] : given) content += port + content_of(inputs_, packet);
+        return content;
     }
 
     void check_input(const std::string& name) {
-        std::vector<std::pair<std::string, AnyPacket>> given;
-        for (const PortSpec& port : spec_.inputs) {
-            AnyPacket packet = packet_for(port, name);
-            if (packet) given.emplace_back(port.name, packet);
-            if (!packet && !port.optional) {
-                violate("inputs", "no '" + name + "' packet of type " + port.type + " to try");
-                return;
-            }
-        }
-        const Outcome first = fire(given, false);
-        const Outcome second = fire(given, false);
-        const Outcome cancelled = fire(given, true);
+        GivenPackets given;
+        if (!packets_for(name, given)) return;
         const std::string with = "with the input '" + name + "': ";
-        if (first.end == Outcome::End::broke) violate("errors", with + first.message);
-        if (first.end == Outcome::End::refused && first.message.empty())
+        const std::string before = content_of_all(given);
+        const FiringOutcome first = fire_once(spec_, inputs_, given, {});
+        if (content_of_all(given) != before)
+            violate("inputs unchanged", with + "the stage changed a packet that it was given");
+        if (first.end == End::broke) violate("errors", with + first.message);
+        if (first.end == End::refused && first.message.empty())
             violate("errors", with + "an error without a message");
-        if (!(first == second)) violate("same input, same output", with + "two firings differ");
-        if (cancelled.end == Outcome::End::broke ||
-            (cancelled.end == Outcome::End::refused && first.end != Outcome::End::refused))
-            violate("cancel", with + "cancelled: " + cancelled.message);
+        check_repeated(with, given, first);
+        check_cancel(with, given, first);
     }
 
-    Outcome fire(const std::vector<std::pair<std::string, AnyPacket>>& given, bool cancel) {
-        StageHarness harness(spec_);
-        if (cancel) harness.cancel();
-        Outcome outcome;
-        try {
-            for (const auto& [port, packet] : given) harness.give_packet(port, packet);
-            harness.fire();
-            for (const PortSpec& port : spec_.outputs)
-                for (const AnyPacket& packet : harness.written(port.name))
-                    outcome.sizes[port.name].push_back(packet.bytes);
-        } catch (const Cancelled&) {
-            outcome.end = Outcome::End::cancelled;
-        } catch (const Error& error) {
-            outcome.end = Outcome::End::refused;
-            outcome.message = error.what();
-        } catch (const std::exception& error) {
-            outcome.end = Outcome::End::broke;
-            outcome.message = std::string("threw what is no petal::Error: ") + error.what();
-        } catch (...) {
-            outcome.end = Outcome::End::broke;
-            outcome.message = "threw what is no std::exception";
+    void check_repeated(const std::string& with, const GivenPackets& given,
+                        const FiringOutcome& first) {
+        const auto compare = [&](const FiringWay& way, const std::string& rule,
+                                 const std::string& how) {
+            const FiringOutcome other = fire_once(spec_, inputs_, given, way);
+            if (!(first == other)) violate(rule, with + how + ": " + difference(first, other));
+        };
+        compare({}, "same seed, same output", "a second instance differs");
+        FiringWay way;
+        way.threads = 4;
+        compare(way, "threads", "four threads instead of one");
+        way.threads = 1;
+        way.change_threads = true;
+        compare(way, "threads", "each call from another thread");
+    }
+
+    static std::string difference(const FiringOutcome& a, const FiringOutcome& b) {
+        if (a.end != b.end || a.message != b.message)
+            return "it ends otherwise ('" + a.message + "' and '" + b.message + "')";
+        if (a.told != b.told) return "outputs, notes or verdict differ";
+        return "files differ";
+    }
+
+    void check_cancel(const std::string& with, const GivenPackets& given,
+                      const FiringOutcome& whole) {
+        FiringWay way;
+        way.cancelled = true;
+        const FiringOutcome outcome = fire_once(spec_, inputs_, given, way);
+        if (outcome.end == End::broke || (outcome.end == End::refused && whole.end != End::refused))
+            violate("cancel", with + "cancelled: " + outcome.message);
+        if (outcome.seconds > kSoon && outcome.seconds > 0.5 * whole.seconds)
+            violate("cancel", with + "a cancelled firing goes on; poll check_cancelled()");
+        for (const auto& [file, content] : outcome.files) {
+            const auto found = whole.files.find(file);
+            if (found == whole.files.end() || found->second != content)
+                violate("cancel", with + "a cancelled firing leaves the file " + file +
+                                      " half written; use Run::output or a PendingFile");
         }
-        return outcome;
+    }
+
+    /// Fires with the extreme values of one parameter, the others as by default.
+    void check_edges(const ParamSpec& param) {
+        std::vector<Value> values;
+        for (const std::optional<double>& edge : {param.min, param.max}) {
+            if (param.list || !edge) continue;
+            if (std::holds_alternative<double>(param.default_value)) values.emplace_back(*edge);
+            if (std::holds_alternative<std::int64_t>(param.default_value))
+                values.emplace_back(static_cast<std::int64_t>(*edge));
+        }
+        if (!param.list)
+            for (const std::string& choice : param.choices) values.emplace_back(choice);
+        if (!param.list && std::holds_alternative<bool>(param.default_value))
+            values.emplace_back(!std::get<bool>(param.default_value));
+        for (const Value& value : values)
+            for (const char* name : {"typical", "empty"}) check_edge_value(param, value, name);
+    }
+
+    void check_edge_value(const ParamSpec& param, const Value& value, const std::string& name) {
+        GivenPackets given;
+        if (!packets_for(name, given)) return;
+        FiringWay way;
+        way.params[param.name] = value;
+        way.cancel_after_s = kEdgeTime;
+        const FiringOutcome outcome = fire_once(spec_, inputs_, given, way);
+        if (outcome.end == End::broke)
+            violate("edges", param.name + " = " + value_text(value) + ", input '" + name +
+                                 "': " + outcome.message);
     }
 
     const StageSpec& spec_;

@@ -5,12 +5,14 @@
 
 #include <unistd.h>
 
-#include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <mutex>
 #include <set>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "firing.hpp"
 #include "nearest.hpp"
@@ -58,7 +60,9 @@ struct StageHarness::State : RunServices {
             throw Error("'" + name.string() + "' was written already");
     }
     bool debug(const std::string&) const override { return debug_on; }
-    bool cancelled() const override { return is_cancelled; }
+    bool cancelled() const override {
+        return is_cancelled || (cancel_at && std::chrono::steady_clock::now() >= *cancel_at);
+    }
     int threads() const override { return thread_count; }
     std::uint64_t seed() const override { return run_seed; }
     const fs::path& folder() const override { return run_folder; }
@@ -81,6 +85,9 @@ struct StageHarness::State : RunServices {
     int thread_count = 1;
     bool debug_on = false;
     bool is_cancelled = false;
+    bool other_threads = false;
+    double cancel_after_s = -1.0;
+    std::optional<std::chrono::steady_clock::time_point> cancel_at;
 
     std::mutex mutex;
     std::vector<Note> notes;
@@ -95,11 +102,25 @@ struct StageHarness::State : RunServices {
         for (std::size_t i = 0; i < outputs.size(); ++i)
             written[spec.outputs[i].name].push_back(std::move(outputs[i]));
     }
+    /// A call of the stage, on a thread of its own where that was asked for.
+    template <class Call>
+    void call(Call&& stage_call) const {
+        if (!other_threads) return stage_call();
+        std::exception_ptr thrown;
+        std::thread([&] {
+            try {
+                stage_call();
+            } catch (...) {
+                thrown = std::current_exception();
+            }
+        }).join();
+        if (thrown) std::rethrow_exception(thrown);
+    }
     PortPackets no_packets() const { return PortPackets(spec.inputs.size()); }
     void fire_source(Stage& stage) {
         for (std::uint64_t number = 0;; ++number) {
             Firing firing(spec, id, nullptr, number, no_packets(), *this);
-            stage.run(firing);
+            call([&] { stage.run(firing); });
             keep(firing.take_outputs());
             if (firing.ended()) return;
         }
@@ -112,7 +133,7 @@ struct StageHarness::State : RunServices {
                               found == given.end() ? std::vector<AnyPacket>{} : found->second});
         }
         Firing firing(spec, id, nullptr, 0, std::move(inputs), *this);
-        stage.finish(firing);
+        call([&] { stage.finish(firing); });
         keep(firing.take_outputs());
     }
     void fire_frames(Stage& stage) {
@@ -132,7 +153,7 @@ struct StageHarness::State : RunServices {
                 if (packet.frame && (!frame || frame->name.empty())) frame = packet.frame;
             }
             Firing firing(spec, id, std::move(frame), k, std::move(inputs), *this);
-            stage.run(firing);
+            call([&] { stage.run(firing); });
             keep(firing.take_outputs());
         }
     }
@@ -173,7 +194,20 @@ StageHarness& StageHarness::cancel() {
     return *this;
 }
 
+StageHarness& StageHarness::cancel_after(double seconds) {
+    state_->cancel_after_s = seconds;
+    return *this;
+}
+StageHarness& StageHarness::change_threads(bool on) {
+    state_->other_threads = on;
+    return *this;
+}
+
 void StageHarness::fire() {
+    if (state_->cancel_after_s >= 0.0)
+        state_->cancel_at = std::chrono::steady_clock::now() +
+                            std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                std::chrono::duration<double>(state_->cancel_after_s));
     state_->written.clear();
     state_->notes.clear();
     state_->logs.clear();
@@ -194,7 +228,7 @@ void StageHarness::fire() {
         state_->fire_frames(*stage);
     }
     Firing last(state_->spec, state_->id, nullptr, 0, state_->no_packets(), *state_);
-    stage->finish(last);
+    state_->call([&] { stage->finish(last); });
     last.expect_no_outputs();
 }
 

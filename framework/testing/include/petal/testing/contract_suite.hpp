@@ -13,11 +13,15 @@
 
 namespace petal::testing {
 
-/// Inputs that a stage must survive, by packet type. The same name in several types goes together:
-/// "empty" gives every port its empty packet. A type that lacks a name gets its "empty".
+/// Packets to try stages with, by packet type and name. The same name in several types goes
+/// together: "empty" gives every port its empty packet. A type that lacks a name gives its
+/// "typical", else its "empty". Names are free; "empty" and "typical" are used for the edges of
+/// parameters too, and every type needs an "empty".
 struct ContractInputs {
     using Maker = std::function<AnyPacket()>;
+    using Content = std::function<std::string(const AnyPacket&)>;
     std::map<std::string, std::map<std::string, Maker>> packets;  ///< type, then name
+    std::map<std::string, Content> contents;                      ///< by type
 
     template <class T>
     void add(const std::string& name, std::function<T()> make) {
@@ -25,26 +29,37 @@ struct ContractInputs {
             return make_packet<T>(make(), FrameInfo{});
         };
     }
+    /// Everything that a value holds, as bytes: two values are alike where these are. Needed to see
+    /// whether a stage changes its inputs, and whether two firings give the same.
+    template <class T>
+    void add_content(std::function<std::string(const T&)> bytes) {
+        contents[PacketTraits<T>::name] = [bytes](const AnyPacket& packet) {
+            return bytes(*static_cast<const T*>(packet.value.get()));
+        };
+    }
 };
 
 /// A rule of the contract that a stage breaks.
 struct Violation {
-    std::string rule;  ///< "empty input", "range edge", ...
+    std::string rule;  ///< "inputs unchanged", "range edge", ...
     std::string what;
 };
 
-/// Checks everything that all stages promise and that needs no data of their own:
-/// - complete declaration;
-/// - defaults are legal, one by one and together;
-/// - values at the edges of each range are taken, values outside, of a wrong kind, and unknown
-/// names are
-///   refused by petal::Error;
-/// - with each of the inputs the stage writes every output, or throws petal::Error with a message;
-/// a stage
-///   that writes does so twice alike as far as the kind and size of packets show;
-/// - a cancelled run ends by petal::Cancelled or in the ordinary way, never by another error than
-/// with the
-///   same input uncancelled.
+/// Checks what all stages promise, without data of their own. The rules:
+/// - "complete declaration"; "legal defaults", one by one and together;
+/// - "unknown names", "wrong kind", "range" and "choices": refused by petal::Error where they must
+///   be; "range edge": inclusive;
+/// - "edges": at each edge of a number's range and with each choice (where the relations between
+///   the parameters allow it) the stage can be made, and fired with "typical" and "empty";
+/// - with each of the inputs, twice in a row as two frames, the stage writes every output, or
+///   throws petal::Error with a message ("errors");
+/// - "inputs unchanged";
+/// - "same seed, same output": outputs, notes, verdicts and files of two instances are alike by
+///   content; "threads": also with four threads to use, and where each call comes from another
+///   thread;
+/// - "cancel": cancelled before the call, the stage throws petal::Cancelled or ends in the ordinary
+///   way, soon, and leaves no file that differs from that of the whole run.
+/// A type without a content function is compared by size alone, which "contents" tells.
 std::vector<Violation> contract_violations(const StageSpec& spec, const ContractInputs& inputs);
 
 }  // namespace petal::testing

@@ -62,6 +62,11 @@ class StageHarness {
     StageHarness& debug(bool on);
     StageHarness& cancel();  ///< fire as if the user had cancelled already
 
+    /// Cancels so many seconds after fire() begins.
+    StageHarness& cancel_after(double seconds);
+    /// Makes each call of the stage on a thread of its own.
+    StageHarness& change_threads(bool on);
+
     /// Makes a fresh stage and runs it over what was given. Exceptions pass through. Earlier
     /// outputs are dropped.
     void fire();
