@@ -8,6 +8,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/maps/CWeightedPointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -152,6 +153,20 @@ TEST_F(ClaimsOfFiles, AFrameOfBillionsOfObservationsIsTold) {
         bytes[bytes.size() - 2] = '\x7F';  // the last byte of the count; the end flag follows
         EXPECT_THAT(reading(bytes), HasSubstr("it claims"));
     }
+}
+
+// MRPT ends the process on it: it takes what it reads for a distribution.
+TEST_F(ClaimsOfFiles, AMovementWhoseMethodChanged) {
+    CActionRobotMovement2D movement;
+    auto actions = CActionCollection::Create();
+    actions->insert(movement);
+    std::string bytes = bytes_of_objects({actions});
+    EXPECT_EQ(reading(bytes), "accepted");
+    const std::string name = "mrpt::obs::CActionRobotMovement2D";
+    const std::size_t method = bytes.find(name) + name.size() + 1;
+    ASSERT_EQ(bytes.substr(method, 4), number(0)) << "odometry";
+    bytes[method] = '\x01';
+    EXPECT_THAT(reading(bytes), AllOf(HasSubstr("method 1"), HasSubstr("CPose2D")));
 }
 
 TEST(Claims, ARotatingScanOf65535RowsAndColumns) {

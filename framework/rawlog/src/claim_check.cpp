@@ -108,6 +108,7 @@ void ClaimCheck::begin_object() {
     outer_.clear();
     last_.clear();
     reads_.clear();
+    problem_.clear();
     name_length_ = 0;
     version_next_ = false;
 }
@@ -122,6 +123,13 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
     if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
     for (const char c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != ':' && c != '_') return false;
+    // MRPT reads a distribution there unless the method is odometry (0), and does not look whether
+    // it got one.
+    // ("41": the method, and the length of this name.)
+    if (last_ == "CActionRobotMovement2D" && reads_ == "41" && value_ != 0 &&
+        name.find("PDF") == std::string::npos)
+        problem_ = "a movement estimated by method " + std::to_string(value_) + " has a " + name +
+                   " for its distribution";
     last_ = without_namespace(name);
     // Of what can hold observations, the observation counts.
     if (last_.rfind("CObservation", 0) == 0 || outer_.empty()) outer_ = last_;
@@ -132,7 +140,7 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
 }
 
 std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::uint64_t can_follow) {
-    if (is_header(bytes, count)) return {};
+    if (is_header(bytes, count)) return problem_;
     name_length_ = 0;
     if (count == 1) {
         const auto byte = *static_cast<const unsigned char*>(bytes);

@@ -134,6 +134,7 @@ void GzipInput::begin_object() {
     object_begin_ = position_;
     head_.clear();
     claims_.begin_object();
+    in_object_ = true;
 }
 
 size_t GzipInput::Read(void* buffer, size_t count) {
@@ -156,7 +157,10 @@ size_t GzipInput::Read(void* buffer, size_t count) {
     position_ += done;
     if (head_.size() < kHeadBytes)
         head_.append(static_cast<const char*>(buffer), std::min(done, kHeadBytes - head_.size()));
-    if (done == count && done > 0) {
+    if (!in_object_) return done;
+    // MRPT goes on with what stood in memory before where a number is read in part only.
+    if (done < count) throw Error(failure_);
+    if (count > 0) {
         const std::string wrong = claims_.after_read(buffer, count, can_follow());
         if (!wrong.empty()) {
             if (failure_.empty()) failure_ = wrong;

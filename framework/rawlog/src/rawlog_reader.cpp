@@ -47,9 +47,11 @@ std::string unknown_class(const std::string& message) {
     return begin == std::string::npos ? std::string() : message.substr(begin + 1, end - begin - 1);
 }
 
-/// A version of a known class that this MRPT does not know.
-bool unknown_version(const std::string& message) {
-    return message.find("unknown serialization version") != std::string::npos;
+/// MRPT's words on a version of a known class that it does not know; empty where there are none.
+std::string unknown_version(const std::string& message) {
+    const std::size_t found = message.find("unknown serialization version");
+    return found == std::string::npos ? std::string()
+                                      : message.substr(found, message.find('\n', found) - found);
 }
 
 }  // namespace
@@ -106,8 +108,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::read_object() {
             fail("class " + unknown + " (in " + where +
                  ") is not known to this MRPT; a newer one wrote it. Convert it there to a class "
                  "that MRPT 2.5 has");
-        if (unknown_version(e.what()))
-            fail(where + " has a version that this MRPT does not know (" + mrpt_message(e.what()) +
+        if (const std::string version = unknown_version(e.what()); !version.empty())
+            fail(where + " is not known to this MRPT in its version (" + version +
                  "); a newer MRPT wrote it, or the file is damaged");
         fail("it is damaged inside " + where + " (" + mrpt_message(e.what()) +
              "); copy the file again");

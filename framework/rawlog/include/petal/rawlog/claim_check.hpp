@@ -28,6 +28,7 @@ class ClaimCheck {
     std::string outer_;            ///< class of the object (in a sensory frame: of the observation)
     std::string last_;             ///< class of the last header, without its namespace
     std::string reads_;            ///< sizes since that header: 1 2 4 8, n for any other
+    std::string problem_;          ///< of a header
     std::size_t name_length_ = 0;  ///< of a class name that may come next
     bool version_next_ = false;
     std::uint32_t value_ = 0;     ///< of the last read of 2 or 4 bytes

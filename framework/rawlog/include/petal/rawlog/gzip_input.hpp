@@ -43,8 +43,8 @@ class GzipInput final : public mrpt::io::CStream {
     std::uint64_t can_follow() const;
 
     /// Fills the buffer. Returns fewer bytes only where the file ends, which failure() then tells.
-    /// \throws Error where the bytes are a count that cannot be true, as failure() tells too: MRPT
-    /// would make room for it.
+    /// \throws Error, once an object has begun, where bytes are missing, and where they are a count
+    /// that cannot be true, as failure() tells too: MRPT would go on with what it has.
     size_t Read(void* buffer, size_t count) override;
     /// Bytes read so far, uncompressed.
     uint64_t getPosition() const override { return position_; }
@@ -78,6 +78,7 @@ class GzipInput final : public mrpt::io::CStream {
     std::uint64_t position_ = 0;
     std::uint64_t object_begin_ = 0;
     std::string head_;
+    bool in_object_ = false;
     ClaimCheck claims_;
     std::string failure_;
 };
