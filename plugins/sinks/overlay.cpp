@@ -4,7 +4,6 @@
 #include "sinks/overlay.hpp"
 
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/file_name.hpp"
 #include "petal/calibration/images.hpp"
+#include "petal/calibration/picture_file.hpp"
 #include "sinks/detail/overlay_canvas.hpp"
 
 namespace petal {
@@ -136,12 +136,9 @@ void Overlay::finish(Run& run) {
                 canvas.draw_caption(std::string(to_string(extrinsics.level)) + "; residuals x" +
                                     std::to_string(static_cast<int>(params_.residual_scale)));
             }
-            run.save(picture_name(scene.name, image.label, taken),
-                     [&](const std::filesystem::path& path) {
-                         if (!cv::imwrite(path.string(), canvas.picture()))
-                             throw Error("cannot write the overlay " + path.string() +
-                                         "; is the disk full?");
-                     });
+            run.save(
+                picture_name(scene.name, image.label, taken),
+                [&](const std::filesystem::path& path) { write_picture(path, canvas.picture()); });
         }
     }
 }

@@ -151,6 +151,7 @@ void FilesSource::run(Run& run) {
         if (fs::exists(folder / "truth.json") && fs::exists(folder / name))
             run.used_file(folder / name);
     run.write("truth", std::move(truth));
+    run.progress(1, 1, "scenes");
 }
 
 }  // namespace petal

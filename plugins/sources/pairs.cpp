@@ -229,6 +229,7 @@ void PairsSource::run(Run& run) {
     Correspondences correspondences;
     correspondences.cameras.push_back(std::move(camera));
     run.write("correspondences", std::move(correspondences));
+    run.progress(1, 1, "scenes");
 }
 
 }  // namespace petal

@@ -16,7 +16,9 @@ namespace petal {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string content(const fs::path& file) {
     std::ifstream in(file);
@@ -82,6 +84,40 @@ TEST_F(OutputTest, AFullDiskIsAnError) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     EXPECT_THAT(error_of([] { write_file("/dev/full", std::string(1 << 20, 'x')); }),
                 HasSubstr("is the disk full?"));
+}
+
+TEST_F(OutputTest, AMessageNamesTheFileByItsOwnName) {
+    PendingFile file(folder_ / "a.b.json");
+    EXPECT_EQ(file.path(), PendingFile::temporary_of(folder_ / "a.b.json"));
+    fs::create_directory(file.path());
+    EXPECT_THAT(error_of([&] { write_file(file.path(), "x"); }),
+                AllOf(HasSubstr((folder_ / "a.b.json").string()), Not(HasSubstr(".part"))));
+    fs::remove(file.path());
+}
+
+TEST_F(OutputTest, AKilledRunsProductsAndTemporariesAreTidied) {
+    const fs::path out = prepare_run_folder(folder_ / "out", false, {});
+    note_product(out, "result.json");
+    note_product(out, "sub/scene.rawlog");
+    EXPECT_THAT(content(out / "run.json"), AllOf(HasSubstr("running"), HasSubstr("sub/scene")));
+    fs::create_directory(out / "sub");
+    write_file(out / "result.json", "whole");
+    write_file(out / "sub" / ".scene.part.rawlog", "half");
+    write_file(out / "sub" / ".mine.part.txt", "not the run's");
+    prepare_run_folder(folder_ / "out", true, {});
+    EXPECT_FALSE(fs::exists(out / "result.json"));
+    EXPECT_FALSE(fs::exists(out / "sub" / ".scene.part.rawlog"));
+    EXPECT_TRUE(fs::exists(out / "sub" / ".mine.part.txt"));
+}
+
+TEST_F(OutputTest, ARunThatCannotWriteItsReportStillSaysHowItEnded) {
+    const fs::path out = prepare_run_folder(folder_ / "out", false, {});
+    note_end(out, "failed", "no room");
+    EXPECT_THAT(content(out / "run.json"), AllOf(HasSubstr("failed"), HasSubstr("no room")));
+    note_end(out, "cancelled", "too late");
+    EXPECT_THAT(content(out / "run.json"), HasSubstr("failed")) << "it says its end already";
+    note_product(out, "late.json");
+    EXPECT_THAT(content(out / "run.json"), Not(HasSubstr("late.json")));
 }
 
 TEST_F(OutputTest, AnUnwritableFolderIsNamed) {

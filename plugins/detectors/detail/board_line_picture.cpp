@@ -5,11 +5,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "petal/error.hpp"
+#include "petal/calibration/picture_file.hpp"
 
 namespace petal {
 
@@ -45,8 +44,7 @@ void draw_attempt(const BoardAttempt& attempt, const std::filesystem::path& file
                                 : attempt.miss.empty() ? "no board"
                                                        : attempt.miss;
     cv::putText(picture, caption, {10, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.4, colour, 1, cv::LINE_AA);
-    if (!cv::imwrite(file.string(), picture))
-        throw Error("cannot write the picture " + file.string());
+    write_picture(file, picture);
 }
 
 }  // namespace petal

@@ -6,10 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "petal/error.hpp"
+#include "petal/calibration/picture_file.hpp"
 
 namespace petal {
 
@@ -64,11 +63,7 @@ class Canvas {
                     cv::LINE_AA);
         cv::putText(drawing_, words, at, cv::FONT_HERSHEY_SIMPLEX, size, color, 1, cv::LINE_AA);
     }
-    void write(const std::filesystem::path& file) const {
-        if (!cv::imwrite(file.string(), drawing_))
-            throw Error("cannot write the picture '" + file.string() +
-                        "': check that the folder can be written to");
-    }
+    void write(const std::filesystem::path& file) const { write_picture(file, drawing_); }
 
    private:
     /// The centre of the photo's pixel (0, 0) lies in the middle of the enlarged pixel.
