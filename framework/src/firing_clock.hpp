@@ -3,10 +3,15 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <vector>
 
 namespace petal {
+
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// Seconds of CPU time that the calling thread has used.
 double thread_cpu_seconds();

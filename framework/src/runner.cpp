@@ -10,6 +10,7 @@
 #include <chrono>
 #include <optional>
 
+#include "firing_clock.hpp"
 #include "run_recorder.hpp"
 #include "scheduler.hpp"
 #include "ticker.hpp"
@@ -24,10 +25,6 @@ double process_cpu_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace

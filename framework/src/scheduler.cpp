@@ -19,10 +19,6 @@ namespace {
 /// What it costs to wake another thread for a firing, roughly. Shorter ones are not handed over.
 constexpr double kHandOver = 5e-6;  // s
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 std::string frame_text(const FrameInfo& frame) {
     return "frame " + std::to_string(frame.number) +
            (frame.name.empty() ? "" : " '" + frame.name + "'");
