@@ -28,7 +28,8 @@ memory is that of one scene.
 **LiDAR**: all observations of one label are accumulated, in the sensor's own frame (its pose on
 the vehicle is recorded, not applied): `CObservationPointCloud` with any points map,
 `CObservation3DRangeScan`, `CObservationVelodyneScan`, `CObservation2DRangeScan`, and a flat
-`CObservationRotatingScan` (MRPT 2.5 keeps no elevation angles). Intensity is kept where there is
+`CObservationRotatingScan`. One with rows is refused where it is the chosen LiDAR: MRPT 2.5 keeps
+neither a row's elevation nor a column's azimuth. Intensity is kept where there is
 one: as it is from a `CPointsMapXYZI`, divided by 255 where it is a byte. The label is given
 exactly or as a shell pattern that fits one label; by default it is the only LiDAR there is, and
 with several the run ends with the list of them. A rawlog without a LiDAR gives an empty cloud and
@@ -43,8 +44,9 @@ of another size than its intrinsics' ends the run.
 order; else empty. It is that of one scene, so it is left out where `split` is on.
 
 MRPT takes a rawlog that was cut off, or is damaged, for one that ends. Here the run ends with
-what was read whole and where it broke: at the gzip trailer, inside which object, or at a class
-that this MRPT does not know. A file without compression that was cut off exactly between two
+what was read whole and where it broke: at the gzip trailer or behind it, inside which object, at a
+count that cannot be true, or at a class that this MRPT does not know. `petal inspect` shows what a
+rawlog holds, also one that breaks. A file without compression that was cut off exactly between two
 objects cannot be told from a whole one.
 
 A scene is named after its file's stem, or after the folder where the stem is `scene`; split
@@ -169,7 +171,7 @@ void RawlogSource::emit(Run& run, SceneBuilder& scene, bool whole_file) {
         run.note({"LiDAR points in " + file,
                   cloud.parts.empty() ? "no LiDAR; there are: " + sensors_.text()
                                       : "all messages of the LiDAR are empty",
-                  "", "`rawlog-edit --info -i FILE` tells what a rawlog holds"});
+                  "", "`petal inspect FILE` tells what a rawlog holds"});
     Truth truth;
     if (whole_file) {
         const fs::path folder = fs::absolute(reader_->file()).parent_path();
