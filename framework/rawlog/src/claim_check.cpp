@@ -68,6 +68,9 @@ constexpr std::array kPlaces = {
     Place{"", "TCamera", "8+444", 1, Meaning::count},  // name
     Place{"", "CMatrixD", "44", 8, Meaning::area},
     Place{"", "CMatrixF", "44", 4, Meaning::area},
+    // After a pose of the old format, which holds a matrix.
+    Place{"CObservation2DRangeScan", "CMatrixD", "44.114", 4, Meaning::count},
+    Place{"", "CPosePDFParticles", "4", 24, Meaning::count},
     Place{"", "CSensoryFrame", "4", 2, Meaning::count},
     Place{"", "CActionCollection", "4", 2, Meaning::count},
 };
