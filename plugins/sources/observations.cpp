@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <system_error>
 #include <utility>
 
 #include "petal/error.hpp"
@@ -24,6 +25,17 @@ bool keeps_other_files(const mrpt::obs::CObservation& observation) {
     // A cloud without a points map passes too, which RawlogReader::load() refuses.
     const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
     return cloud == nullptr || cloud->isExternallyStored();
+}
+
+/// A file that is not there is told when it is opened.
+std::uint64_t bytes_of(const std::vector<std::filesystem::path>& files) {
+    std::uint64_t sum = 0;
+    for (const auto& file : files) {
+        std::error_code error;
+        const std::uint64_t size = std::filesystem::file_size(file, error);
+        if (!error) sum += size;
+    }
+    return sum;
 }
 
 }  // namespace
@@ -120,18 +132,26 @@ bool ObservationsSource::advance(Run& run) {
             if (!loose_.empty()) keep_the_rest();
             return false;
         }
+        if (next_file_ == 0) bytes_ = bytes_of(params_.files);
         const std::filesystem::path& file = params_.files[next_file_++];
         reader_ = std::make_unique<RawlogReader>(file);
         run.used_file(file);
     }
     const auto object = reader_->next_object();
-    if (!object)
+    if (!object) {
+        bytes_done_ += reader_->stream().file_size();
         reader_.reset();
-    else if (const auto one = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+    } else if (const auto one = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
         add(one, run);
-    else
+    } else {
         add_frame(object, run);
+    }
     return true;
+}
+
+void ObservationsSource::tell_progress(Run& run) {
+    const std::uint64_t done = bytes_done_ + (reader_ ? reader_->stream().file_position() : 0);
+    run.progress(static_cast<double>(done), static_cast<double>(bytes_), "B");
 }
 
 void ObservationsSource::emit(Run& run) {
@@ -142,6 +162,7 @@ void ObservationsSource::emit(Run& run) {
                   stamp == mrpt::Clock::time_point{} ? 0.0 : mrpt::Clock::toDouble(stamp));
     run.write("observation", std::move(next));
     ++emitted_;
+    tell_progress(run);
 }
 
 void ObservationsSource::tell(Run& run) {

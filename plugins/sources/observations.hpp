@@ -44,10 +44,13 @@ class ObservationsSource final : public Stage {
     void add_frame(const mrpt::serialization::CSerializable::Ptr& object, Run& run);
     void keep_the_rest();
     void emit(Run& run);
+    void tell_progress(Run& run);
     void tell(Run& run);
 
     Params params_;
     std::size_t next_file_ = 0;
+    std::uint64_t bytes_ = 0;       ///< of all files, as they lie on the disk
+    std::uint64_t bytes_done_ = 0;  ///< of those that are read
     std::unique_ptr<RawlogReader> reader_;
     /// Read, not yet emitted. The last one waits until it is known what stands behind it.
     std::deque<Observation> ready_;

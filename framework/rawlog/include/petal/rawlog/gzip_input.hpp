@@ -38,6 +38,7 @@ class GzipInput final : public mrpt::io::CStream {
 
     bool compressed() const { return compressed_; }
     std::uint64_t file_size() const { return file_size_; }  ///< bytes as it lies on the disk
+    std::uint64_t file_position() const { return taken_; }  ///< of these, read so far
     /// No more bytes than these can follow: exact for a plain file; for a compressed one what
     /// deflate could make of the rest of it at its very best (1032 to 1).
     std::uint64_t can_follow() const;
