@@ -37,7 +37,7 @@ std::shared_ptr<T> named(const std::string& label, int tick) {
 }
 
 /// 100 points at 0.1, 0.2, ... 10 m, then one that is not finite.
-CObservation::Ptr cloud(int tick) {
+CObservation::Ptr cloud_at(int tick) {
     auto points = mrpt::maps::CPointsMapXYZI::Create();
     for (int i = 1; i <= 100; ++i) {
         points->insertPointFast(0.0F, 0.0F, 0.1F * static_cast<float>(i));
@@ -58,7 +58,7 @@ RawlogObjects some_of_each(int rounds) {
                                      mrpt::img::TColor(static_cast<std::uint8_t>(i % 255), 10, 20));
         auto imu = named<CObservationIMU>("IMU", 4 * i + 2);
         imu->set(IMU_X_ACC, 0.1 * i);
-        all.push_back(cloud(4 * i));
+        all.push_back(cloud_at(4 * i));
         all.push_back(image);
         all.push_back(imu);
         all.push_back(named<CObservationGPS>("GPS", 4 * i + 3));
