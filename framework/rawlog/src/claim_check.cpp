@@ -21,9 +21,10 @@ constexpr std::uint64_t kSmall = std::uint64_t{1} << 16U;
 
 /// How the last read, or the last two, are to be understood.
 enum class Meaning {
-    count,      ///< so many elements follow
-    area,       ///< rows and columns: so many elements follow
-    raw_image,  ///< width and height, both negative where the pixels follow as they are
+    count,       ///< so many elements follow
+    after_none,  ///< so many elements follow, where the count before it was 0
+    area,        ///< rows and columns: so many elements follow
+    raw_image,   ///< width and height, both negative where the pixels follow as they are
 };
 
 /// A place where a count stands.
@@ -40,6 +41,7 @@ constexpr std::array kPlaces = {
     Place{"", "CPointsMapXYZI", "4", 12, Meaning::count},
     Place{"", "CColouredPointsMap", "4", 12, Meaning::count},
     Place{"", "CColouredPointsMap", "4...4(.4)?(.4)?", 4, Meaning::count},
+    Place{"", "CColouredPointsMap", "(4...)?44", 4, Meaning::after_none},
     Place{"", "CWeightedPointsMap", "4", 12, Meaning::count},
     Place{"CObservationPointCloud", "CObservationPointCloud", "4", 1, Meaning::count},  // label
     Place{"CObservationPointCloud", "CPose3D", "8+114", 1, Meaning::count},  // external file
@@ -97,6 +99,7 @@ const std::regex& expression(std::size_t place) {
 /// Elements that the last reads claim.
 std::uint64_t claimed(Meaning meaning, std::uint32_t previous, std::uint32_t value) {
     if (meaning == Meaning::count) return value;
+    if (meaning == Meaning::after_none) return previous == 0 ? value : 0;
     if (meaning == Meaning::area) return std::uint64_t{previous} * value;
     const auto width = static_cast<std::int32_t>(previous);
     const auto height = static_cast<std::int32_t>(value);
@@ -122,10 +125,11 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
         return count == 1;
     }
     if (name_length_ == 0 || count != name_length_) return false;
-    const std::string name(static_cast<const char*>(bytes), count);
-    if (std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
+    // MRPT looks at what follows the namespace alone, whatever that is.
+    const std::string name = without_namespace(std::string(static_cast<const char*>(bytes), count));
+    if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
     for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != ':' && c != '_') return false;
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
     // MRPT reads a distribution there unless the method is odometry (0), and does not look whether
     // it got one.
     // ("41": the method, and the length of this name.)
@@ -133,7 +137,7 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
         name.find("PDF") == std::string::npos)
         problem_ = "a movement estimated by method " + std::to_string(value_) + " has a " + name +
                    " for its distribution";
-    last_ = without_namespace(name);
+    last_ = name;
     // Of what can hold observations, the observation counts.
     if (last_.rfind("CObservation", 0) == 0 || outer_.empty()) outer_ = last_;
     reads_.clear();
@@ -144,10 +148,14 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
 
 std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::uint64_t can_follow) {
     if (is_header(bytes, count)) return problem_;
+    // A header is the length of the name, with a flag; before 2008 without, and of four bytes.
     name_length_ = 0;
     if (count == 1) {
         const auto byte = *static_cast<const unsigned char*>(bytes);
         if (byte > 0x80U) name_length_ = byte & 0x7FU;
+        old_length_ = byte;
+    } else if (count == 3) {
+        name_length_ = old_length_;
     }
     constexpr std::size_t kMostReads = 64;  // no count of ours stands further from its header
     if (last_.empty() || reads_.size() > kMostReads) return {};

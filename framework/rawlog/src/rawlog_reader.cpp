@@ -59,8 +59,8 @@ std::string unknown_version(const std::string& message) {
 RawlogReader::RawlogReader(fs::path file) : file_(std::move(file)), stream_(file_) {}
 
 void RawlogReader::fail(const std::string& what) const {
-    throw Error("rawlog " + file_.string() + ": " + what + ". " + std::to_string(objects_) +
-                " objects (" + std::to_string(stream_.object_begin()) +
+    throw Error("rawlog " + file_.string() + ": " + what + (what.back() == '?' ? " " : ". ") +
+                std::to_string(objects_) + " objects (" + std::to_string(stream_.object_begin()) +
                 " bytes, uncompressed) were read whole before");
 }
 

@@ -30,6 +30,7 @@ class ClaimCheck {
     std::string reads_;            ///< sizes since that header: 1 2 4 8, n for any other
     std::string problem_;          ///< of a header
     std::size_t name_length_ = 0;  ///< of a class name that may come next
+    std::size_t old_length_ = 0;   ///< the same, of the old format
     bool version_next_ = false;
     std::uint32_t value_ = 0;     ///< of the last read of 2 or 4 bytes
     std::uint32_t previous_ = 0;  ///< of that before it
