@@ -89,10 +89,13 @@ RunReport run_logged(const Pipeline& pipeline, RunSettings settings, Verbosity v
         if (const std::size_t width = log.status_width(); width > 0)
             log.status(progress_text(progress, width));
     };
+    Checksums checksums(settings.cancel, settings.threads > 1);
+    settings.checksums = &checksums;
     RunReport report = run_pipeline(pipeline, settings, log);
     guard.set_at_work({});
-    log.status(report.used_files.empty() ? "" : "checksums of the data");
-    add_checksums(report, settings.cancel);
+    log.status("checksums of the data");
+    add_checksums(report, checksums, settings.cancel);
+    log.status("");
     for (const std::string& error : report.errors) log.error(error);
     try {
         log.close();

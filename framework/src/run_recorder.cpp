@@ -40,8 +40,7 @@ SourceProgress RunRecorder::progress_of(const std::string& stage) const {
 }
 
 void RunRecorder::used_file(const std::filesystem::path& path) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    used_files_.insert(path.lexically_normal());
+    if (settings_.checksums != nullptr) settings_.checksums->add(path.lexically_normal());
 }
 
 void RunRecorder::claim_product(const std::string& stage, const std::filesystem::path& name) {
@@ -78,7 +77,6 @@ void RunRecorder::fill(RunReport& report, const Pipeline& pipeline) {
     report.notes = std::move(notes_);
     report.verdicts = std::move(verdicts_);
     for (const auto& [name, stage] : products_) report.products.push_back(name);
-    report.used_files.assign(used_files_.begin(), used_files_.end());
 }
 
 }  // namespace petal

@@ -5,7 +5,6 @@
 
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -52,7 +51,6 @@ class RunRecorder final : public RunServices {
     std::map<std::string, SourceProgress> progress_;
     std::vector<ToldNote> notes_;
     std::vector<ToldVerdict> verdicts_;
-    std::set<std::filesystem::path> used_files_;
     std::map<std::filesystem::path, std::string> products_;  ///< whose each is
 };
 

@@ -3,12 +3,7 @@
 
 #include "run_report.hpp"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -49,27 +44,17 @@ Json notes_json(const std::vector<ToldNote>& notes) {
 
 Json data_json(const RunReport& report) {
     Json list = Json::array();
-    for (std::size_t i = 0; i < report.used_files.size(); ++i) {
-        Json entry{{"file", report.used_files[i].string()}};
-        const Checksum sum =
-            i < report.checksums.size() ? report.checksums[i] : Checksum{"", "not computed"};
+    for (const auto& [file, sum] : report.used_files) {
+        Json entry{{"file", file.string()}};
         if (sum.missing.empty()) {
-            entry["sha256"] = sum.sha256;
+            entry["blake2b"] = sum.blake2b;
         } else {
-            entry["sha256"] = nullptr;
+            entry["blake2b"] = nullptr;
             entry["error"] = sum.missing;
         }
         list.push_back(std::move(entry));
     }
     return list;
-}
-
-Checksum checksum_of(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
-    try {
-        return {sha256_of(file, cancel), ""};
-    } catch (const Error& error) {
-        return {"", error.what()};
-    }
 }
 
 /// The plugins whose stages the pipeline uses.
@@ -111,40 +96,10 @@ std::string to_string(const Note& note) {
     return text;
 }
 
-std::string sha256_of(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error("cannot read " + file.string() + " for its checksum");
-    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
-                                                                          EVP_MD_CTX_free);
-    EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
-    std::vector<char> block(1 << 16);
-    while (in) {
-        if (cancel != nullptr && cancel->load()) throw Cancelled();
-        in.read(block.data(), static_cast<std::streamsize>(block.size()));
-        EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount()));
-    }
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int length = 0;
-    EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-    static constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    for (unsigned int i = 0; i < length; ++i) {
-        text += kDigits[digest[i] >> 4];
-        text += kDigits[digest[i] & 15];
-    }
-    return text;
-}
-
-void add_checksums(RunReport& report, const std::atomic<bool>* cancel) {
-    const Checksum none{"", "not computed: the run was cancelled"};
-    report.checksums.assign(report.used_files.size(), none);
-    if (report.status == RunStatus::cancelled) return;
-    try {
-        for (std::size_t i = 0; i < report.used_files.size(); ++i)
-            report.checksums[i] = checksum_of(report.used_files[i], cancel);
-    } catch (const Cancelled&) {
-        if (report.status == RunStatus::done) report.status = RunStatus::cancelled;
-    }
+void add_checksums(RunReport& report, Checksums& checksums, const std::atomic<bool>* cancel) {
+    report.used_files = checksums.finish();
+    if (cancel != nullptr && cancel->load() && report.status == RunStatus::done)
+        report.status = RunStatus::cancelled;
 }
 
 std::string to_json(const RunReport& report, const Pipeline& pipeline) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "checksums.hpp"
 #include "petal/run.hpp"
 #include "pipeline.hpp"
 
@@ -37,12 +38,6 @@ struct ToldVerdict {
     std::vector<std::string> reasons;
 };
 
-/// The checksum of a used file, or why there is none.
-struct Checksum {
-    std::string sha256;
-    std::string missing;  ///< empty: there is one
-};
-
 /// How a run ended.
 enum class RunStatus { done, failed, cancelled };
 
@@ -53,9 +48,8 @@ struct RunReport {
     std::vector<ToldNote> notes;      ///< by stage in topological order, then by frame
     std::vector<ToldVerdict> verdicts;
     std::map<std::string, StageStatistics> stages;
-    std::vector<std::filesystem::path> used_files;  ///< sorted, unique
-    std::vector<Checksum> checksums;                ///< of them, by add_checksums()
-    std::vector<std::filesystem::path> products;    ///< relative to the run folder, sorted
+    std::map<std::filesystem::path, Checksum> used_files;  ///< by add_checksums()
+    std::vector<std::filesystem::path> products;           ///< relative to the run folder, sorted
     std::uint64_t frames = 0;
     int threads = 1;
     double wall_s = 0.0;
@@ -69,16 +63,12 @@ struct RunReport {
 /// One line for a note: what was looked for, the nearest miss, the threshold, the hint.
 std::string to_string(const Note& note);
 
-/// Computes the checksums of the used files. Data may be large: where `cancel` (may be null) is set
-/// meanwhile it stops, and the status of a run that was done becomes cancelled. A run that was
-/// cancelled before gets none.
-void add_checksums(RunReport& report, const std::atomic<bool>* cancel);
+/// Waits for the checksums of the used files. Where the run is cancelled meanwhile, the status of
+/// one that was done becomes cancelled.
+void add_checksums(RunReport& report, Checksums& checksums, const std::atomic<bool>* cancel);
 
 /// run.json. A used file without a checksum has null and the reason.
 std::string to_json(const RunReport& report, const Pipeline& pipeline);
-
-/// SHA-256 of a file in hexadecimal. \throws Error naming the file; Cancelled when `cancel` is set.
-std::string sha256_of(const std::filesystem::path& file, const std::atomic<bool>* cancel = nullptr);
 
 /// The version of petal, e.g. "0.1.0".
 const char* version();

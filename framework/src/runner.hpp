@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "checksums.hpp"
 #include "pipeline.hpp"
 #include "run_log.hpp"
 #include "run_progress.hpp"
@@ -26,6 +27,7 @@ struct RunSettings {
     std::vector<std::function<void(int)>> thread_limits;
     /// Told a few times a second how far the run is, on a thread of its own. May be empty.
     std::function<void(const RunProgress&)> on_progress;
+    Checksums* checksums = nullptr;             ///< given the files that stages use; may be null
     const std::atomic<bool>* cancel = nullptr;  ///< set from a signal handler; may be null
 };
 
