@@ -9,6 +9,8 @@
 #include <memory>
 
 #include "petal/calibration/cloud.hpp"
+#include "petal/calibration/testing/contract_samples.hpp"
+#include "petal/testing/contract_suite.hpp"
 #include "petal/testing/stage_harness.hpp"
 
 namespace {
@@ -78,6 +80,13 @@ TEST(StatisticalOutlier, NotesThatNothingIsLeftOfACloudWithoutNeighbours) {
         EXPECT_EQ(stage.out<Cloud>("cloud").size(), 0U) << count;
         EXPECT_EQ(stage.notes().size(), 1U) << count;
     }
+}
+
+TEST(StatisticalOutlier, KeepsWhatEveryStagePromises) {
+    const auto stage = petal::describe_stage<StatisticalOutlier>("example.statistical_outlier");
+    for (const auto& violation :
+         petal::testing::contract_violations(stage, petal::testing::calibration_samples()))
+        ADD_FAILURE() << violation.rule << ": " << violation.what;
 }
 
 }  // namespace
