@@ -18,7 +18,7 @@ options=(-DCMAKE_BUILD_TYPE=Release -DPETAL_WERROR=ON)
 # Several files to a compiler run: the headers of MRPT, Eigen and OpenCV cost most of the time, and a build from
 # nothing takes a third of it.
 options+=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=6)
-read -ra more <<<"${CMAKE_OPTIONS:-}"
+read -r -d "" -a more <<<"${CMAKE_OPTIONS:-}" || true
 quiet cmake -S . -B "$build" "${options[@]}" "${more[@]}"
 if [ $# -eq 0 ]; then
     quiet cmake --build "$build"

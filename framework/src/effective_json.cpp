@@ -6,18 +6,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
-#include <variant>
 
 #include "pipeline_shape.hpp"
+#include "value_json.hpp"
 
 namespace petal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Value& value) {
-    return std::visit([](const auto& held) { return Json(held); }, value);
-}
 
 Json inputs_json(const DraftStage& stage) {
     Json inputs = Json::object();
@@ -40,7 +36,7 @@ Json stage_json(const DraftStage& stage) {
     if (!inputs.empty()) json["in"] = std::move(inputs);
     Json params = Json::object();
     for (const ParamSpec& param : stage.spec->params)
-        params[param.name] = to_json(stage.params.written.at(param.name));
+        params[param.name] = value_json(stage.params.written.at(param.name));
     if (!params.empty()) json["params"] = std::move(params);
     return json;
 }

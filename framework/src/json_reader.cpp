@@ -36,7 +36,7 @@ std::string with_comma(std::string message) {
 
 /// nlohmann's text without its own name, position and raw bytes: "syntax error while parsing value
 /// - unexpected '}'; expected '[', '{', or a literal".
-std::string plain_message(const std::string& what) {
+std::string syntax_message(const std::string& what) {
     const std::size_t start = what.find("syntax error");
     if (start == std::string::npos) return "no JSON: " + printable(what);
     std::string text = what.substr(start);
@@ -144,7 +144,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
         list_.add({file_, position_.line}, place,
                   overflow ? printable(last_token) +
                                  " does not fit a double; expected a number up to 1e308"
-                           : plain_message(error.what()));
+                           : syntax_message(error.what()));
         return false;
     }
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <set>
 #include <utility>
-#include <variant>
 
 #include "nearest.hpp"
 #include "param_check.hpp"
+#include "value_json.hpp"
 
 namespace petal {
 namespace {
@@ -74,15 +74,11 @@ Json value_schema(const ParamSpec& param) {
     return Json::object();
 }
 
-Json to_json(const Value& value) {
-    return std::visit([](const auto& held) { return Json(held); }, value);
-}
-
 Json param_schema(const ParamSpec& param) {
     Json schema = value_schema(param);
     if (param.list) schema = Json{{"type", "array"}, {"items", std::move(schema)}};
     schema["description"] = param.doc + " (" + expected_value(param, param.list) + ")";
-    schema["default"] = to_json(param.default_value);
+    schema["default"] = value_json(param.default_value);
     return schema;
 }
 

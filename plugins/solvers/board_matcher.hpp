@@ -26,7 +26,7 @@ class BoardMatcher final : public Stage {
    public:
     using Params = BoardMatcherParams;
     static void describe(Spec<Params>& s);
-    explicit BoardMatcher(Params params) : p_(std::move(params)) {}
+    explicit BoardMatcher(Params params) : p_(params) {}
     void run(Run& run) override;
 
    private:
