@@ -13,10 +13,10 @@ trap 'rm -f "$log"' EXIT
 quiet() {
     "$@" >"$log" 2>&1 || { cat "$log" >&2; echo "failed: $*" >&2; exit 1; }
 }
-options=(-DCMAKE_BUILD_TYPE=Release -DPETAL_WERROR=ON)
+options=(-DCMAKE_BUILD_TYPE=Release -DPETAL_WERROR=ON -DPETAL_COVERAGE=OFF)
 [ -e "$build/CMakeCache.txt" ] || options+=(-G Ninja)
-# Several files to a compiler run: the headers of MRPT, Eigen and OpenCV cost most of the time, and a build from
-# nothing takes a third of it.
+# Several files to a compiler run: reading the headers of MRPT, Eigen and OpenCV costs most of the time of a build
+# from nothing.
 options+=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=6)
 read -r -d "" -a more <<<"${CMAKE_OPTIONS:-}" || true
 quiet cmake -S . -B "$build" "${options[@]}" "${more[@]}"

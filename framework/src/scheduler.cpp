@@ -260,6 +260,7 @@ RunProgress Scheduler::progress() {
 }
 
 void Scheduler::fill(RunReport& report) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     for (RunNode& node : nodes_) {
         report.stages[node.definition().id] = node.statistics();
         if (node.is_source()) report.frames = std::max(report.frames, node.fired());

@@ -3,29 +3,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Builds with sanitizers into build/<sanitizers>/ and runs the test programs:
-#     scripts/checks/sanitizers.sh address,undefined|thread [CMAKE OPTION]...
-# With thread the tests of whole pipelines are left out; one pipeline is run on four threads in their place.
+#     scripts/checks/sanitizers.sh address,undefined|thread [all]
+# Those of the framework; with `all` those of the plugins too, and one pipeline on four threads.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 sanitizers=$1
-shift
 folder=build/${sanitizers//,/-}
-targets=()
-if [ "$sanitizers" = thread ]; then
-    targets=(petal_runtime framework_tests loader_tests rawlog_tests)
+targets=(framework_tests loader_tests rawlog_tests)
+if [ "${2:-}" = all ]; then
+    targets+=(petal_runtime)
     for kind in calibration sources filters detectors solvers metrics sinks; do targets+=("${kind}_tests"); done
 fi
 # Warnings are the release build's business: GCC warns of code that sanitizers insert.
 CMAKE_OPTIONS="-DPETAL_SANITIZE=$sanitizers -DCMAKE_BUILD_TYPE=Debug -DPETAL_WERROR=OFF -DCMAKE_CXX_FLAGS=-w
-    -DPETAL_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 $*" BUILD_FOLDER=$folder scripts/build.sh "${targets[@]}"
+    -DPETAL_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD_BATCH_SIZE=12" BUILD_FOLDER=$folder scripts/build.sh "${targets[@]}"
 
 # Debian's libraries are built without: a report must come from petal's own code.
-export TSAN_OPTIONS="ignore_noninstrumented_modules=1 halt_on_error=1 second_deadlock_stack=1"
+export TSAN_OPTIONS="suppressions=$PWD/scripts/checks/thread.supp ignore_noninstrumented_modules=1 halt_on_error=1 second_deadlock_stack=1"
 export ASAN_OPTIONS="detect_stack_use_after_return=1" UBSAN_OPTIONS="print_stacktrace=1"
 scripts/checks/run_tests.sh "$folder"
 
-if [ "$sanitizers" = thread ]; then
+if [ "${2:-}" = all ]; then
     log=$(mktemp)
     trap 'rm -f "$log"' EXIT
     "$folder/bin/petal_synthetic_scene" "$folder/scene" >"$log"
