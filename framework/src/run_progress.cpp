@@ -4,9 +4,9 @@
 #include "run_progress.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "petal/printed.hpp"
 
 namespace petal {
 
@@ -16,9 +16,7 @@ constexpr std::size_t kLongestNames = 40;  // columns, where the line is wide
 constexpr std::size_t kShortestNames = 8;
 
 std::string number(double value, int decimals) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-    return text.data();
+    return printed("%.*f", decimals, value);
 }
 
 std::string shortened(const std::string& text, std::size_t width) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <system_error>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/file_name.hpp"
 #include "petal/error.hpp"
+#include "petal/printed.hpp"
 
 namespace petal {
 
@@ -55,9 +55,7 @@ CameraModel model_of(const CameraImage& camera) {
 }
 
 std::string short_number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return text.data();
+    return printed("%.3g", value);
 }
 
 ImageBoard to_image_board(const RefinedBoard& refined, const std::string& target,

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <string>
 #include <utility>
+
+#include "petal/printed.hpp"
 
 namespace petal {
 namespace {
@@ -33,9 +34,7 @@ Cloud take(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
 }
 
 std::string millimetres(double metres) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f mm", metres * 1e3);
-    return text;
+    return printed("%.1f mm", metres * 1e3);
 }
 
 }  // namespace

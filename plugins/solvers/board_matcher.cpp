@@ -4,12 +4,12 @@
 #include "solvers/board_matcher.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
+#include "petal/printed.hpp"
 #include "solvers/detail/solve_input.hpp"
 #include "solvers/detail/verdict.hpp"
 
@@ -210,16 +210,13 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
                 found.begin(), found.end(), [](const BoardOrder& a, const BoardOrder& b) {
                     return a.worst_gate_ratio < b.worst_gate_ratio;
                 });
-            char text[128];
-            std::snprintf(text, sizeof text,
-                          "%s; the best hypothesis leaves %.2f px RMS over %zu boards, %.1f times "
-                          "its gate",
-                          counts.c_str(), nearest->rms_px(), nearest->matches.size(),
-                          nearest->worst_gate_ratio);
-            miss = text;
+            miss = printed(
+                "%s; the best hypothesis leaves %.2f px RMS over %zu boards, %.1f times "
+                "its gate",
+                counts.c_str(), nearest->rms_px(), nearest->matches.size(),
+                nearest->worst_gate_ratio);
         }
-        char gate[96];
-        std::snprintf(gate, sizeof gate, "gate %.3f m, at least %.1f px", p_.gate, p_.min_gate_px);
+        const std::string gate = printed("gate %.3f m, at least %.1f px", p_.gate, p_.min_gate_px);
         run.note({sought, miss, gate,
                   "check the target's size, the intrinsics, and whether the boards are the same"});
         return result;
@@ -238,10 +235,9 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
     if (matched < std::min(lidar.boards.size(), seen.size()))
         run.note({sought, std::to_string(matched) + " matched of " + counts, "",
                   "a board may be false, or lie where only one sensor sees it"});
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "camera '%s': %zu boards, RMS %.2f px, order by %s: ", camera.label.c_str(),
-                  matched, result.order.rms_px, to_string(result.order.by));
+    const std::string text =
+        printed("camera '%s': %zu boards, RMS %.2f px, order by %s: ", camera.label.c_str(),
+                matched, result.order.rms_px, to_string(result.order.by));
     run.log(result.order.by == DecidedBy::undecided ? LogLevel::warning : LogLevel::info,
             text + result.order.reason);
     return result;
@@ -265,13 +261,10 @@ void BoardMatcher::doubt_what_is_no_noise(const CameraModel& model, const OrderC
     const bool prior = (p_.upright || p_.use_max_baseline) && !result.order.contradicts_priors;
     result.order.by = prior ? DecidedBy::prior : DecidedBy::undecided;
     result.order.contradicts_priors = false;
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
+    result.order.reason += printed(
         "; but chi-square %.1f with %d degrees of freedom is more than noise, so a board may be "
         "false or not shared%s",
         chi2, freedom, prior ? "; the priors hold" : "");
-    result.order.reason += text;
 }
 
 void BoardMatcher::add_lidar_noise(const CameraModel& model, const std::vector<LidarBoard>& boards,

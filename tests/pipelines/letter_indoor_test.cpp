@@ -29,6 +29,7 @@ Eigen::Isometry3d pose_of(const json& rows) {
 
 Eigen::Isometry3d published_pose(const fs::path& file) {
     std::ifstream in(file);
+    in.imbue(std::locale::classic());
     std::string title;
     in >> title;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

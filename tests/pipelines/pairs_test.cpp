@@ -32,6 +32,7 @@ TEST_F(Pairs, IndoorPairsGiveThePublishedPoseAgain) {
     EXPECT_NEAR(result["metrics"]["reprojection.rms_px"].get<double>(),
                 result["residuals"]["rms_px"].get<double>(), 1e-9);
     std::ifstream in(data / "published_extrinsic.txt");
+    in.imbue(std::locale::classic());
     std::string title;
     in >> title;
     const json pose = first_pose(result);

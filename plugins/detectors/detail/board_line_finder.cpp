@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <utility>
+
+#include "petal/printed.hpp"
 
 namespace petal {
 namespace {
@@ -16,13 +17,6 @@ constexpr std::size_t kPlacementsTried = 3;
 constexpr std::size_t kMinPatternPoints = 3;  ///< on a line whose direction and place are known
 constexpr double kPlainTolerance = 0.018;     ///< m: a point is on a side, plain lines
 constexpr double kInflationSigma = 0.02;  ///< m: of d about zero; edges move by about half a beam
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
 
 /// A line in the form normal . p = at.
 struct NormalForm {
@@ -109,10 +103,10 @@ BoardAttempt BoardFinder::find(const std::vector<Eigen::Vector3d>& points,
     search.max_lines = 2 * (grid_.x.size() + grid_.y.size() + 4);
     attempt.lines = find_lines(attempt.points, search, rng, poll);
     const std::optional<LineSplit> split = split_lines(attempt.lines);
-    attempt.threshold = format("%zu + %zu lines of at least min_line_points %d points",
-                               grid_.x.size(), grid_.y.size(), params_.min_line_points);
+    attempt.threshold = printed("%zu + %zu lines of at least min_line_points %d points",
+                                grid_.x.size(), grid_.y.size(), params_.min_line_points);
     if (!split) {
-        attempt.miss = format("no line among %zu points", points.size());
+        attempt.miss = printed("no line among %zu points", points.size());
         return attempt;
     }
     const auto placements =
@@ -148,9 +142,9 @@ void BoardFinder::fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPatt
     }
     if (!accept(attempt, best->score, best->inflation)) return;
     if (best->line_rms > params_.max_line_rms) {
-        attempt.miss = format("a board whose points lie %.1f mm (RMS) off its holes' sides",
-                              best->line_rms * 1e3);
-        attempt.threshold = format("max_line_rms %.1f mm", params_.max_line_rms * 1e3);
+        attempt.miss = printed("a board whose points lie %.1f mm (RMS) off its holes' sides",
+                               best->line_rms * 1e3);
+        attempt.threshold = printed("max_line_rms %.1f mm", params_.max_line_rms * 1e3);
         return;
     }
     // Were the left edges moved more than the right ones, the board would seem shifted: from its
@@ -193,9 +187,9 @@ bool BoardFinder::intersect(BoardAttempt& attempt, const LineFamily& vertical,
                                        std::min(horizontal.lines.size(), grid_.y.size()));
         if (closeness >= attempt.closeness) {
             attempt.closeness = closeness;
-            attempt.miss =
-                format("%zu of %zu vertical and %zu of %zu horizontal lines", vertical.lines.size(),
-                       grid_.x.size(), horizontal.lines.size(), grid_.y.size());
+            attempt.miss = printed("%zu of %zu vertical and %zu of %zu horizontal lines",
+                                   vertical.lines.size(), grid_.x.size(), horizontal.lines.size(),
+                                   grid_.y.size());
         }
         return false;
     }
@@ -249,28 +243,28 @@ bool BoardFinder::accept(BoardAttempt& attempt, const PatternScore& score,
     const double in_holes = points > 0.0 ? static_cast<double>(score.in_holes) / points : 0.0;
     attempt.closeness = 1.0 + score.value;
     if (sides < needed) {
-        attempt.miss = format(
+        attempt.miss = printed(
             "%zu of %zu vertical and %zu of %zu horizontal lines, %zu of %zu hole sides covered",
             covered_lines(grid_, score, true, params_.min_side_coverage), grid_.x.size(),
             covered_lines(grid_, score, false, params_.min_side_coverage), grid_.y.size(), sides,
             grid_.side_count());
-        attempt.threshold = format("needed %zu + %zu lines and %zu sides (min_sides %.2f)",
-                                   grid_.x.size(), grid_.y.size(), needed, params_.min_sides);
+        attempt.threshold = printed("needed %zu + %zu lines and %zu sides (min_sides %.2f)",
+                                    grid_.x.size(), grid_.y.size(), needed, params_.min_sides);
         return false;
     }
     if (in_holes > params_.max_hole_points) {
         attempt.miss =
-            format("all lines, but %zu points inside the holes against %zu on their sides",
-                   score.in_holes, score.rim);
-        attempt.threshold = format("max_hole_points %.2f", params_.max_hole_points);
+            printed("all lines, but %zu points inside the holes against %zu on their sides",
+                    score.in_holes, score.rim);
+        attempt.threshold = printed("max_hole_points %.2f", params_.max_hole_points);
         return false;
     }
     const double enlarged = inflation.cwiseAbs().maxCoeff();
     if (enlarged > params_.max_inflation) {
         attempt.miss =
-            format("all lines, but the holes' sides are off by %.1f mm (x) and %.1f mm (y)",
-                   inflation.x() * 1e3, inflation.y() * 1e3);
-        attempt.threshold = format("max_inflation %.1f mm", params_.max_inflation * 1e3);
+            printed("all lines, but the holes' sides are off by %.1f mm (x) and %.1f mm (y)",
+                    inflation.x() * 1e3, inflation.y() * 1e3);
+        attempt.threshold = printed("max_inflation %.1f mm", params_.max_inflation * 1e3);
         return false;
     }
     return true;

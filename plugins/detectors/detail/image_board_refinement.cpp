@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "detectors/detail/image_corner_fit.hpp"
+
+#include "petal/printed.hpp"
 
 namespace petal {
 
@@ -35,9 +36,7 @@ double median(std::vector<double> values) {
 }
 
 std::string figure(const char* format, double value, double threshold) {
-    std::array<char, 120> text{};
-    std::snprintf(text.data(), text.size(), format, value, threshold);
-    return text.data();
+    return printed(format, value, threshold);
 }
 
 }  // namespace

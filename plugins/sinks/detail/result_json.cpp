@@ -4,15 +4,14 @@
 #include "sinks/detail/result_json.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "petal/calibration/angles.hpp"
+#include "petal/printed.hpp"
 
 namespace petal {
 
@@ -242,12 +241,7 @@ void add_metrics(Json& root, const ResultInput& input) {
 /// "4.6 cm left of", or nothing below half a millimetre.
 std::string offset_text(double metres, const char* positive, const char* negative) {
     if (std::abs(metres) < 0.0005) return {};
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.1f cm %s", std::abs(metres) * 100.0,
-                  metres > 0.0 ? positive : negative);
-    std::string safe = text.data();
-    std::replace(safe.begin(), safe.end(), ',', '.');  // a decimal comma of the locale
-    return safe;
+    return printed("%.1f cm %s", std::abs(metres) * 100.0, metres > 0.0 ? positive : negative);
 }
 
 }  // namespace

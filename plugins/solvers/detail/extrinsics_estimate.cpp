@@ -8,12 +8,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
+#include "petal/printed.hpp"
 #include "solvers/detail/reprojection_cost.hpp"
 
 namespace petal {
@@ -46,20 +46,12 @@ double unit_weight_variance(std::vector<double> squares) {
 }
 
 std::string length_text(double metres) {
-    char text[32];
-    if (metres < 0.1) {
-        std::snprintf(text, sizeof text, "%.1f mm", metres * 1e3);
-    } else {
-        std::snprintf(text, sizeof text, "%.2f m", metres);
-    }
-    return text;
+    return metres < 0.1 ? printed("%.1f mm", metres * 1e3) : printed("%.2f m", metres);
 }
 
 std::string angle_text(double radians) {
-    char text[32];
-    std::snprintf(text, sizeof text, radians * kDegrees < 0.1 ? "%.3f deg" : "%.2f deg",
-                  radians * kDegrees);
-    return text;
+    const double degrees = radians * kDegrees;
+    return degrees < 0.1 ? printed("%.3f deg", degrees) : printed("%.2f deg", degrees);
 }
 
 /// "x axis", or "x and z axes" where no single one holds nearly all of the vector.

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "petal/calibration/angles.hpp"
+#include "petal/printed.hpp"
 
 namespace petal {
 namespace {
@@ -54,19 +54,13 @@ std::optional<BoardOrder> allowed(BoardOrder order, const OrderParams& params) {
     return order;
 }
 
-std::string text(const char* pattern, double a, double b, double c) {
-    char buffer[256];
-    std::snprintf(buffer, sizeof buffer, pattern, a, b, c);
-    return buffer;
-}
-
 std::string prior_names(const OrderParams& params) {
     std::string names;
     if (params.upright)
-        names += text("image up and LiDAR +z within %.0f deg", params.upright_tolerance_deg, 0, 0);
+        names += printed("image up and LiDAR +z within %.0f deg", params.upright_tolerance_deg);
     if (params.use_max_baseline)
         names += (names.empty() ? "" : ", ") +
-                 text("sensors at most %.2f m apart", params.max_baseline, 0, 0);
+                 printed("sensors at most %.2f m apart", params.max_baseline);
     return names;
 }
 
@@ -134,20 +128,20 @@ std::optional<OrderChoice> choose_order(const BoardOrders& boards,
     const bool symmetric = most == 1;
     if (!symmetric && (runner_up == 0.0 || floored >= params.min_runner_up_ratio)) {
         const bool contradicts = !priors_hold(best.poses.front().T_camera_lidar, params);
-        OrderChoice decided =
-            fill(best, DecidedBy::data,
-                 (runner_up == 0.0
-                      ? std::string("no other order explains as many boards")
-                      : text("the best other order has %.2f times the RMS", floored, 0, 0)) +
-                     (contradicts ? "; the priors (" + prior_names(params) + ") do not hold" : ""));
+        OrderChoice decided = fill(
+            best, DecidedBy::data,
+            (runner_up == 0.0 ? std::string("no other order explains as many boards")
+                              : printed("the best other order has %.2f times the RMS", floored)) +
+                (contradicts ? "; the priors (" + prior_names(params) + ") do not hold" : ""));
         decided.decision.contradicts_priors = contradicts;
         return decided;
     }
 
     const std::string alike =
-        symmetric ? "one board looks the same in each of its rotations"
-                  : text("the best other order has only %.2f times the RMS (%.2f against %.2f px)",
-                         floored, runner_up, best.rms_px());
+        symmetric
+            ? "one board looks the same in each of its rotations"
+            : printed("the best other order has only %.2f times the RMS (%.2f against %.2f px)",
+                      floored, runner_up, best.rms_px());
     if (!params.upright && !params.use_max_baseline)
         return fill(best, DecidedBy::undecided, alike + ", and no prior is on");
 
@@ -167,17 +161,17 @@ std::optional<OrderChoice> choose_order(const BoardOrders& boards,
         const double ratio = std::max(left[1].rms_px(), params.noise_floor_px) /
                              std::max(left[0].rms_px(), params.noise_floor_px);
         if (ratio < params.min_runner_up_ratio)
-            return fill(left[0], DecidedBy::undecided,
-                        alike + text(", and %.0f orders satisfy the priors, the second with %.2f "
-                                     "times the RMS",
-                                     static_cast<double>(left.size()), ratio, 0));
+            return fill(
+                left[0], DecidedBy::undecided,
+                alike + printed(", and %.0f orders satisfy the priors, the second with %.2f "
+                                "times the RMS",
+                                static_cast<double>(left.size()), ratio));
     }
     return fill(left[0], DecidedBy::prior,
                 alike + "; taken: " + prior_names(params) +
-                    text(" (%.2f times the best RMS)",
-                         std::max(left[0].rms_px(), params.noise_floor_px) /
-                             std::max(best.rms_px(), params.noise_floor_px),
-                         0, 0));
+                    printed(" (%.2f times the best RMS)",
+                            std::max(left[0].rms_px(), params.noise_floor_px) /
+                                std::max(best.rms_px(), params.noise_floor_px)));
 }
 
 }  // namespace petal

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <string>
 
 #include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/error.hpp"
+#include "petal/printed.hpp"
 
 namespace petal {
 namespace {
@@ -24,14 +24,11 @@ std::string other_pose(const std::vector<RefinedPose>& poses, double min_ratio) 
     const double ratio = poses[1].rms_px / std::max(poses[0].rms_px, 1e-9);
     if (ratio >= min_ratio) return "";
     const Eigen::Isometry3d between = poses[1].T_camera_lidar * poses[0].T_camera_lidar.inverse();
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
+    return printed(
         "another pose, %.1f deg and %.2f m away, fits the same pairs with %.2f times the RMS",
         rotation_angle(between.linear()) * kDegrees,
         (poses[1].T_camera_lidar.translation() - poses[0].T_camera_lidar.translation()).norm(),
         ratio);
-    return text;
 }
 
 /// Where a prior chose among poses that fit alike, the solver must not choose again by residuals:
@@ -98,11 +95,9 @@ void run_solver(Run& run, const SolverParams& params, const RobustLoss& loss,
             extrinsics.reasons.push_back(who + ": " + sentence);
         }
         extrinsics.level = std::max(extrinsics.level, level);
-        char text[160];
-        std::snprintf(text, sizeof text, ": %zu pairs, RMS %.3f px, chi-square %.1f (%d)",
-                      input.pairs.size(), poses.front().rms_px, camera.chi2,
-                      camera.degrees_of_freedom);
-        run.log(LogLevel::info, who + text);
+        run.log(LogLevel::info,
+                who + printed(": %zu pairs, RMS %.3f px, chi-square %.1f (%d)", input.pairs.size(),
+                              poses.front().rms_px, camera.chi2, camera.degrees_of_freedom));
         extrinsics.cameras.push_back(std::move(camera));
     }
     run.verdict(extrinsics.level, extrinsics.reasons);

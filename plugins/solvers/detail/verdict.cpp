@@ -5,24 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "solvers/detail/extrinsics_estimate.hpp"
 
 #include "petal/calibration/angles.hpp"
+#include "petal/printed.hpp"
 
 namespace petal {
 namespace {
 
 constexpr double kUpperZ = 3.0902;     // one-sided 99.9 %
 constexpr double kTwoSidedZ = 3.2905;  // 0.05 % at either end
-
-/// A printf pattern with two numbers.
-std::string numbers(const char* pattern, double a, double b) {
-    char text[128];
-    std::snprintf(text, sizeof text, pattern, a, b);
-    return text;
-}
 
 void lower(Level& level, Level to) {
     level = std::max(level, to);
@@ -51,12 +44,12 @@ Level judge(const CameraExtrinsics& camera, const VerdictParams& params,
     if (useless || !good) {
         lower(level, useless ? Level::not_usable : Level::weak);
         reasons.push_back(who +
-                          numbers("1 sigma is up to %.1f mm and %.3f deg", sigma.translation * 1e3,
+                          printed("1 sigma is up to %.1f mm and %.3f deg", sigma.translation * 1e3,
                                   rotation_deg) +
                           (useless
-                               ? numbers(" (not usable above %.0f mm or %.2f deg)",
+                               ? printed(" (not usable above %.0f mm or %.2f deg)",
                                          params.not_usable_sigma * 1e3, params.not_usable_sigma_deg)
-                               : numbers(" (usable up to %.1f mm and %.2f deg)",
+                               : printed(" (usable up to %.1f mm and %.2f deg)",
                                          params.usable_sigma * 1e3, params.usable_sigma_deg)) +
                           "; weakest: " + camera.weakest_direction);
     }
@@ -70,9 +63,9 @@ Level judge(const CameraExtrinsics& camera, const VerdictParams& params,
     } else if (camera.chi2 > most || camera.chi2 < least) {
         lower(level, Level::weak);
         reasons.push_back(who +
-                          numbers("chi-square is %.1f with %.0f degrees of freedom", camera.chi2,
+                          printed("chi-square is %.1f with %.0f degrees of freedom", camera.chi2,
                                   static_cast<double>(freedom)) +
-                          numbers(", outside its 99.9 %% band %.1f to %.1f: ", least, most) +
+                          printed(", outside its 99.9 %% band %.1f to %.1f: ", least, most) +
                           (camera.chi2 > most
                                ? "the residuals are larger than the pairs' covariances"
                                : "the residuals are smaller than the pairs' covariances"));

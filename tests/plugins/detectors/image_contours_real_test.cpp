@@ -30,6 +30,16 @@ struct Scene {
     std::vector<Eigen::Vector2d> reference;
 };
 
+/// Written with a point, whatever the locale of the process.
+double number(const std::string& text) {
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double value = 0.0;
+    in >> value;
+    EXPECT_TRUE(in) << text;
+    return value;
+}
+
 /// Columns 3 and 4 (from 0) of a CSV file.
 std::vector<Eigen::Vector2d> read_pixels(const std::filesystem::path& file) {
     std::vector<Eigen::Vector2d> pixels;
@@ -39,7 +49,7 @@ std::vector<Eigen::Vector2d> read_pixels(const std::filesystem::path& file) {
         std::stringstream cells(line);
         std::vector<std::string> cell;
         for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-        pixels.emplace_back(std::stod(cell.at(3)), std::stod(cell.at(4)));
+        pixels.emplace_back(number(cell.at(3)), number(cell.at(4)));
     }
     return pixels;
 }

@@ -28,6 +28,7 @@ inline std::vector<std::vector<double>> number_rows(const std::filesystem::path&
         if (line.empty() || line[0] == '#') continue;
         std::replace(line.begin(), line.end(), ',', ' ');
         std::istringstream words(line);
+        words.imbue(std::locale::classic());
         std::vector<double> row;
         for (double value; words >> value;) row.push_back(value);
         if (!row.empty()) rows.push_back(row);
