@@ -12,6 +12,6 @@ mkdir -p "$folder"
 [ -e "$folder/de_DE.UTF-8" ] || localedef -i de_DE -f UTF-8 "$folder/de_DE.UTF-8"
 # Numbers only: what the system says of its errors may well be German.
 unset LC_ALL
-export LOCPATH=$folder LC_NUMERIC=de_DE.UTF-8
 export GTEST_FILTER='-*Cancel*:*BadPlugin*:*Disk*:Probe*'
-scripts/checks/run_tests.sh build env LD_PRELOAD="$PWD/build/lib/libpetal_test_locale.so"
+env LOCPATH="$folder" LC_NUMERIC=de_DE.UTF-8 \
+    scripts/checks/run_tests.sh build env LD_PRELOAD="$PWD/build/lib/libpetal_test_locale.so"
