@@ -139,9 +139,9 @@ std::optional<Scheduler::Job> Scheduler::take_job() {
 }
 
 void Scheduler::work() {
-    FiringClock clock(nodes_.size());
     Outcome outcome;  // outside the loop: what nobody takes of it is freed outside the lock
     std::unique_lock<std::mutex> lock(mutex_);
+    FiringClock clock(nodes_.size());
     while (auto job = take_job()) {
         lock.unlock();
         outcome = fire(*job);
