@@ -35,9 +35,8 @@ std::string as_folder(const FrameInfo& frame) {
 
 /// `name` relative to the folder; an absolute one (as ${out} gives) must lie below it.
 fs::path relative_inside(const fs::path& folder, const fs::path& name) {
-    const fs::path relative = name.is_absolute()
-                                  ? name.lexically_normal().lexically_relative(folder)
-                                  : name.lexically_normal();
+    fs::path relative = name.is_absolute() ? name.lexically_normal().lexically_relative(folder)
+                                           : name.lexically_normal();
     if (relative.empty() || *relative.begin() == ".." || *relative.begin() == "." ||
         !relative.has_filename())
         throw Error("'" + name.string() +

@@ -182,6 +182,7 @@ CheckedPipeline read_pipeline_texts(const PipelineText& pipeline,
                                     const std::vector<PipelineText>& patches,
                                     const PipelineRequest& request, const Registry& registry) {
     std::vector<LoadedText> loaded;
+    loaded.reserve(patches.size());
     for (const PipelineText& patch : patches) loaded.push_back({patch, ""});
     return PipelineReader(request, registry).read({pipeline, ""}, loaded);
 }

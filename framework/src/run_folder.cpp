@@ -142,7 +142,7 @@ fs::path default_run_folder(const std::string& pipeline) {
 
 fs::path prepare_run_folder(const fs::path& out, bool force, const RunInputs& inputs) {
     std::error_code error;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(out), error);
+    fs::path folder = fs::weakly_canonical(fs::absolute(out), error);
     if (error) throw Error("cannot use --out " + out.string() + ": " + error.message());
     check_place(out, folder, inputs);
     if (fs::exists(folder / "run.json", error)) {

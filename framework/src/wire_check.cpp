@@ -12,6 +12,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<PortSpec>& ports) {
     std::vector<std::string> names;
+    names.reserve(ports.size());
     for (const PortSpec& port : ports) names.push_back(port.name);
     return names;
 }

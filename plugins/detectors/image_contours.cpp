@@ -32,7 +32,7 @@ cv::Mat pixels_of(const CameraImage& camera) {
         throw Error("camera '" + camera.label +
                     "' has an image without pixels: check the file, or that " +
                     "the image beside the rawlog can be read");
-    const cv::Mat pixels = camera.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    cv::Mat pixels = camera.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
     if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3))
         throw Error("camera '" + camera.label +
                     "': its image must have 8 bit and 1 or 3 channels; convert it before");

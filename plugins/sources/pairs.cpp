@@ -34,6 +34,7 @@ TextTable read_table(Run& run, const fs::path& file, const std::string& what, st
 /// Numbers the side * side corners of one upright board row by row: rows by v, within a row by u.
 void number_from_image(PointPair* corners, int side) {
     std::vector<PointPair*> order;
+    order.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     for (int i = 0; i < side * side; ++i) order.push_back(corners + i);
     const auto by = [](int axis) {
         return [axis](const PointPair* a, const PointPair* b) {
@@ -178,7 +179,7 @@ void PairsSource::mark_boards(std::vector<PointPair>& pairs) const {
                     "first, count and leading_points");
     const int side = square_side(each);
     for (int i = 0; i < corners; ++i) {
-        PointPair& pair = pairs[static_cast<std::size_t>(singles + i)];
+        PointPair& pair = pairs[static_cast<std::size_t>(singles) + static_cast<std::size_t>(i)];
         const int k = i % each;
         pair.board = i / each;
         pair.corner = params_.corner_order == "columns" ? (k % side) * side + k / side : k;

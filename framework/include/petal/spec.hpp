@@ -126,6 +126,7 @@ struct Codec<std::vector<E>> {
     using Stored = typename ParamKind<E>::Stored;
     static Value get(const std::vector<E>& member) {
         std::vector<Stored> values;
+        values.reserve(member.size());
         for (const auto& element : member)
             values.push_back(std::get<Stored>(Codec<E>::get(element)));
         return Value(std::move(values));

@@ -31,7 +31,7 @@ std::string class_in_header(const std::string& head) {
     const auto first = static_cast<unsigned char>(head[0]);
     const std::size_t length = first & 0x7FU;
     if ((first & 0x80U) == 0 || length == 0 || head.size() < length + 1) return {};
-    const std::string name = head.substr(1, length);
+    std::string name = head.substr(1, length);
     for (const char c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != ':' && c != '_' && c != '<' &&
             c != '>' && c != ',' && c != ' ')

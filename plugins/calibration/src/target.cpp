@@ -261,7 +261,7 @@ fs::path find_target_file(const fs::path& name_or_path) {
     // A bare name means the shipped one, whatever lies in the working folder.
     if (!name_or_path.empty() && !name_or_path.has_parent_path() && !name_or_path.has_extension())
         for (const fs::path& folder : shipped_folders()) {
-            const fs::path file = folder / (name_or_path.string() + ".json");
+            fs::path file = folder / (name_or_path.string() + ".json");
             if (fs::is_regular_file(file, ignored)) return file;
         }
     if (fs::is_directory(name_or_path, ignored))

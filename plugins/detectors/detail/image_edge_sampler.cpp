@@ -45,7 +45,7 @@ std::optional<EdgePoint> EdgeSampler::steepest_rise(const Eigen::Vector2d& start
     const int half = std::max(2, static_cast<int>(std::ceil(reach / kStep)));
     const int samples = half + kHalfKernel;
     std::vector<double> profile;
-    profile.reserve(static_cast<std::size_t>(2 * samples + 1));
+    profile.reserve(2 * static_cast<std::size_t>(samples) + 1);
     for (int k = -samples; k <= samples; ++k) {
         const auto value = grey(start + k * kStep * direction);
         if (!value) return std::nullopt;

@@ -36,7 +36,7 @@ bool inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& 
 double distance_to_edge(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
     double nearest = 1e9;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Eigen::Vector2d a = polygon[i];
+        const Eigen::Vector2d& a = polygon[i];
         const Eigen::Vector2d d = polygon[(i + 1) % polygon.size()] - a;
         const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
         nearest = std::min(nearest, (a + t * d - p).norm());

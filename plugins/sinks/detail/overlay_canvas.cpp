@@ -85,6 +85,7 @@ void OverlayCanvas::draw_cloud(const Cloud& cloud, const Eigen::Isometry3d& T_ca
     const std::vector<Dot> dots = project_cloud(cloud, T_camera_lidar, model_, max_points);
     if (dots.empty()) return;
     std::vector<double> ranges;
+    ranges.reserve(dots.size());
     for (const Dot& dot : dots) ranges.push_back(dot.range);
     // The 5 % and 95 % ends, so that one far point does not take the colours from all others.
     const auto quantile = [&ranges](double q) {

@@ -22,6 +22,7 @@ std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3d>& corners
     const Eigen::Matrix3d axes =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors();
     std::vector<Eigen::Vector2d> flat;
+    flat.reserve(corners.size());
     for (const auto& corner : corners)
         flat.emplace_back(axes.col(2).dot(corner - centre), axes.col(1).dot(corner - centre));
     return flat;

@@ -201,6 +201,7 @@ Cloud nan_cloud() {
 
 Cloud collinear_cloud() {
     std::vector<Eigen::Vector3d> points;
+    points.reserve(200);
     for (int i = 0; i < 200; ++i) points.emplace_back(2.0, 0.01 * i, 0.0);
     return cloud_of(points);
 }
