@@ -190,6 +190,38 @@ TEST(Claims, ARotatingScanOf65535RowsAndColumns) {
     EXPECT_THAT(read(std::string(2, '\xFF')), HasSubstr("it claims"));
 }
 
+// MRPT takes the name of a class up to a NUL in it.
+TEST_F(ClaimsOfFiles, ACountAfterAClassNameWithANulIsTold) {
+    const std::string name = "mrpt::maps::CPointsMapXYZI";
+    std::string bytes = bytes_of_objects({with_map<mrpt::maps::CPointsMapXYZI>()});
+    const std::size_t begin = bytes.find(name);
+    ASSERT_NE(begin, std::string::npos);
+    bytes[begin - 1] = static_cast<char>(bytes[begin - 1] + 3);
+    bytes.insert(begin + name.size(), 3, '\0');
+    EXPECT_EQ(reading(bytes), "accepted");
+    bytes[bytes.find(number(201)) + 3] = '\x3F';
+    EXPECT_THAT(reading(bytes), HasSubstr("it claims"));
+}
+
+// Length and version of four bytes, no end flag: MRPT still reads it, also inside what is newer.
+TEST_F(ClaimsOfFiles, ACountAfterAHeaderFromBefore2008IsTold) {
+    const std::string name = "mrpt::maps::CPointsMapXYZI";
+    const auto map = mrpt::maps::CPointsMapXYZI::Create();
+    map->resize(201);
+    std::string bytes = bytes_of_objects({with_map<mrpt::maps::CPointsMapXYZI>()});
+    const std::size_t begin = bytes.find(name);
+    ASSERT_NE(begin, std::string::npos);
+    const std::size_t version = begin + name.size();
+    const std::size_t end = begin - 1 + bytes_of_objects({map}).size() - 1;
+    ASSERT_EQ(bytes[end], '\x88');
+    bytes.erase(end, 1);
+    bytes.insert(version + 1, 3, '\0');
+    bytes.replace(begin - 1, 1, number(static_cast<std::uint32_t>(name.size())));
+    EXPECT_EQ(reading(bytes), "accepted");
+    bytes[bytes.find(number(201)) + 3] = '\x3F';
+    EXPECT_THAT(reading(bytes), HasSubstr("it claims"));
+}
+
 TEST(Claims, WhatIsNotKnownIsNotRefused) {
     ClaimCheck check;
     check.begin_object();

@@ -122,11 +122,13 @@ void ClaimCheck::begin_object() {
 bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
     if (version_next_) {
         version_next_ = false;
-        return count == 1;
+        return count == 1 || count == 4;  // 4 before 2008
     }
     if (name_length_ == 0 || count != name_length_) return false;
-    // MRPT looks at what follows the namespace alone, whatever that is.
-    const std::string name = without_namespace(std::string(static_cast<const char*>(bytes), count));
+    // MRPT ends the name at a NUL, and looks at what follows the namespace alone, whatever that is.
+    std::string name(static_cast<const char*>(bytes), count);
+    name.resize(std::min(name.size(), name.find('\0')));
+    name = without_namespace(name);
     if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
     for (const char c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
