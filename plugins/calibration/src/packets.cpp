@@ -140,15 +140,17 @@ std::size_t PacketTraits<Cloud>::bytes(const Cloud& cloud) {
 }
 
 void PacketTraits<Images>::seal(Images& images) {
-    for (const CameraImage& camera : images.cameras) {
-        warm(camera.image, camera.label);
-        warm(camera.sensor_pose);
-    }
+    for (const auto* list : {&images.cameras, &images.others})
+        for (const CameraImage& camera : *list) {
+            warm(camera.image, camera.label);
+            warm(camera.sensor_pose);
+        }
 }
 
 std::size_t PacketTraits<Images>::bytes(const Images& images) {
-    std::size_t sum = sizeof(images) + heap(images.cameras);
-    for (const CameraImage& camera : images.cameras) sum += heap(camera.label) + heap(camera.image);
+    std::size_t sum = sizeof(images) + heap(images.cameras) + heap(images.others);
+    for (const auto* list : {&images.cameras, &images.others})
+        for (const CameraImage& camera : *list) sum += heap(camera.label) + heap(camera.image);
     return sum;
 }
 

@@ -177,7 +177,8 @@ void RawlogWriter::write_image(const CameraImage& camera) {
 void RawlogWriter::write_scene(const Cloud* cloud, const Images* images, double stamp) {
     std::vector<const CameraImage*> waiting;
     if (images != nullptr)
-        for (const CameraImage& camera : images->cameras) waiting.push_back(&camera);
+        for (const auto* list : {&images->cameras, &images->others})
+            for (const CameraImage& camera : *list) waiting.push_back(&camera);
     std::stable_sort(
         waiting.begin(), waiting.end(),
         [](const CameraImage* a, const CameraImage* b) { return a->stamp < b->stamp; });

@@ -5,28 +5,13 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "petal/error.hpp"
 #include "petal/rawlog/lidar_points.hpp"
 #include "petal/rawlog/sensor_label.hpp"
+#include "sources/detail/sharpness.hpp"
 
 namespace petal {
-namespace {
-
-/// The variance of the Laplacian, in squared grey levels: larger for a sharper image of the same
-/// view.
-double sharpness(const cv::Mat& image) {
-    cv::Mat grey = image;
-    if (image.channels() == 3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-    cv::Mat laplacian;
-    cv::Laplacian(grey, laplacian, CV_16S);
-    cv::Scalar mean, deviation;
-    cv::meanStdDev(laplacian, mean, deviation);
-    return deviation[0] * deviation[0];
-}
-
-}  // namespace
 
 bool SensorChoice::takes_camera(const std::string& label) const {
     return cameras.empty() || label_fits_any(cameras, label);

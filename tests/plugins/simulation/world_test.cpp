@@ -106,7 +106,7 @@ TEST(WorldTest, TheTreeFindsWhatTryingEverySurfaceFinds) {
         ASSERT_EQ(hit.range, expected.range) << "ray " << i;
         ++met;
     }
-    EXPECT_GT(met, 1000);
+    EXPECT_GT(met, 500) << "too few of the rays meet anything to prove much";
 }
 
 TEST(SurfacesTest, ACylinderIsMetOutsideAndFromWithin) {

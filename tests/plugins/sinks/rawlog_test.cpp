@@ -140,6 +140,20 @@ TEST(RawlogSinkStage, WritesAndReadsBackWithoutLoss) {
     EXPECT_EQ(pictures, 2U);
 }
 
+TEST(RawlogSinkStage, TheOtherImagesOfACameraAreWrittenToo) {
+    Images images = example_images();
+    images.others = {images.cameras[0], images.cameras[0]};
+    images.others[0].stamp = at(0);
+    images.others[1].stamp = at(6);
+    StageHarness stage = StageHarness::of<RawlogSink>();
+    stage.give<Cloud>("cloud", example_cloud(), "room").give<Images>("images", images, "room");
+    stage.fire();
+    std::vector<mrpt::Clock::time_point> stamps;
+    for (const auto& each : read_all(stage.folder() / "scene.rawlog"))
+        if (std::dynamic_pointer_cast<CObservationImage>(each)) stamps.push_back(each->timestamp);
+    EXPECT_THAT(stamps, ElementsAre(at(0), at(3), at(4), at(6)));
+}
+
 TEST(RawlogSinkStage, MrptsOwnProgramOpensIt) {
     if (std::system("command -v rawlog-edit > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "no rawlog-edit: install mrpt-apps";

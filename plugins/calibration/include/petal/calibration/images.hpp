@@ -28,6 +28,9 @@ struct CameraImage {
 /// The images of a scene: one a camera, labels unique. Empty where the scene has none.
 struct Images {
     std::vector<CameraImage> cameras;
+    /// More images of those cameras in the same scene, where the source keeps them: recorders write
+    /// them too (sink.rawlog), detectors pass over them.
+    std::vector<CameraImage> others;
 };
 
 template <>
