@@ -86,6 +86,8 @@ std::string content_of(const ContractInputs& inputs, const AnyPacket& packet) {
 FiringOutcome fire_once(const StageSpec& spec, const ContractInputs& inputs,
                         const GivenPackets& given, const FiringWay& way) {
     StageHarness harness(spec);
+    if (const auto own = inputs.params.find(spec.type); own != inputs.params.end())
+        for (const auto& [name, value] : own->second) harness.set(name, value);
     for (const auto& [name, value] : way.params) harness.set(name, value);
     harness.threads(way.threads).change_threads(way.change_threads);
     if (way.cancelled) harness.cancel();

@@ -22,6 +22,8 @@ struct ContractInputs {
     using Content = std::function<std::string(const AnyPacket&)>;
     std::map<std::string, std::map<std::string, Maker>> packets;  ///< type, then name
     std::map<std::string, Content> contents;                      ///< by type
+    /// By stage type: parameters to fire it with, where its defaults mean work for minutes.
+    std::map<std::string, std::map<std::string, Value>> params;
 
     template <class T>
     void add(const std::string& name, std::function<T()> make) {
