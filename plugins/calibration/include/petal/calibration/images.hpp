@@ -30,7 +30,7 @@ struct Images {
     std::vector<CameraImage> cameras;
     /// More images of those cameras in the same scene, where the source keeps them: recorders write
     /// them too (sink.rawlog), detectors pass over them.
-    std::vector<CameraImage> others;
+    std::vector<CameraImage> others{};
 };
 
 template <>
