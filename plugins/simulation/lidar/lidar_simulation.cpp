@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulation/lidar/lidar_simulation.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/lidar/echo.hpp"
+#include "simulation/lidar/footprint.hpp"
+#include "simulation/lidar/scan_pattern.hpp"
+#include "simulation/world/random.hpp"
+
+namespace petal::simulation {
+namespace {
+
+/// The intensity of a white surface met squarely: Livox sends reflectivities of 0 to 100 % of such
+/// a one as 0 to 150, and leaves 151 to 255 to retroreflectors.
+constexpr double kWhite = 150.0;
+constexpr double kBrightest = 255.0;
+/// As in labels.u8: how far from every surface a point must lie to be vacant, at least.
+constexpr double kVacant = 0.02;          // m
+constexpr double kLongestStart = 1000.0;  // s
+
+std::uint8_t label_of(Kind kind) {
+    switch (kind) {
+        case Kind::board:
+            return 1;
+        case Kind::foreground:
+            return 3;
+        case Kind::background:
+            break;
+    }
+    return 0;
+}
+
+/// m from `range` to the nearest and the farthest that the footprint met of a surface.
+double distance_to(const Surface* surface, const std::vector<Patch>& patches, double range) {
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0.0;
+    for (const Patch& patch : patches) {
+        if (patch.surface != surface) continue;
+        nearest = std::min(nearest, patch.nearest);
+        farthest = std::max(farthest, patch.farthest);
+    }
+    return std::max({nearest - range, range - farthest, 0.0});
+}
+
+std::uint8_t label(const std::vector<Patch>& patches, double range, double sigma) {
+    constexpr std::uint8_t kVacantPoint = 2;
+    const Surface* nearest = nullptr;
+    double distance = std::max(3.0 * sigma, kVacant);
+    for (const Patch& patch : patches) {
+        const double here = distance_to(patch.surface, patches, range);
+        if (here > distance || (here == distance && nearest != nullptr)) continue;
+        nearest = patch.surface;
+        distance = here;
+    }
+    return nearest == nullptr ? kVacantPoint : label_of(nearest->kind());
+}
+
+double to_steps(double value, double step) {
+    return step > 0.0 ? std::round(value / step) * step : value;
+}
+
+/// Fires the pulses of one message.
+class Shooter {
+   public:
+    Shooter(const World& world, const LidarDevice& device, const Motion& motion,
+            const ScanPattern& pattern, std::uint64_t seed)
+        : device_(device),
+          profile_(device.profile),
+          motion_(motion),
+          pattern_(pattern),
+          footprint_(world, device.profile),
+          receiver_(device.profile),
+          rim_(device.profile.rim()),
+          engine_(seed) {}
+
+    void shoot(std::int64_t pulse, LidarMessage& message) {
+        const Eigen::Vector3d direction = pattern_.direction(pulse);
+        Ray beam{Eigen::Vector3d::Zero(), direction};
+        Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+        if (!motion_.still()) {
+            const Eigen::Isometry3d pose =
+                motion_.at(static_cast<double>(pulse) / profile_.points_per_second);
+            beam = {pose.translation(), pose.linear() * direction};
+            up = pose.linear().col(2);
+        }
+        const std::vector<Patch>& patches = footprint_.meet(beam, up);
+        const auto echo = receiver_.told(patches);
+        if (!echo || uniform(engine_, 0.0, 1.0) < profile_.dropout) return;
+        const double true_range = echo->range + receiver_.lateness(*echo);
+        const double sigma = profile_.range_noise(echo->energy);
+        double range = true_range + device_.range_offset + normal(engine_, sigma);
+        const Eigen::Vector3d reported = report(direction);
+        const double intensity = brightness(*echo);
+        if (range < profile_.range_min || range > profile_.range_max) return;
+        if (profile_.quantised == LidarProfile::Quantised::range)
+            range = to_steps(range, profile_.quantisation);
+        add(range * reported, intensity, label(patches, true_range, sigma), message);
+    }
+
+   private:
+    /// The direction that the sensor tells: it does not know its errors.
+    Eigen::Vector3d report(const Eigen::Vector3d& direction) {
+        Eigen::Vector3d told = misaligned(direction);
+        Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(told);
+        if (!(left.squaredNorm() > 1e-12)) left = Eigen::Vector3d::UnitY();
+        left.normalize();
+        told += normal(engine_, profile_.angular_noise) * left +
+                normal(engine_, profile_.angular_noise) * direction.cross(left);
+        return told.normalized();
+    }
+
+    Eigen::Vector3d misaligned(const Eigen::Vector3d& direction) const {
+        if (device_.direction_error_deg == 0.0) return direction;
+        const double error = device_.direction_error_deg * 3.14159265358979323846 / 180.0;
+        const double stretch = rim_ > 0.0 ? 1.0 + error / rim_ : 1.0;
+        const bool has_axis = profile_.pattern.kind == ScanPatternProfile::Kind::prisms;
+        const double aside = direction.tail<2>().norm();
+        if (has_axis) {
+            if (aside == 0.0) return direction;
+            const double angle = std::atan2(aside, direction.x());
+            return off_axis(stretch * angle / aside * direction.tail<2>());
+        }
+        const double level = direction.head<2>().norm();
+        if (level == 0.0) return direction;
+        const double elevation = stretch * std::atan2(direction.z(), level);
+        const Eigen::Vector2d ahead = std::cos(elevation) / level * direction.head<2>();
+        return {ahead.x(), ahead.y(), std::sin(elevation)};
+    }
+
+    /// The reflectivity that the sensor takes the surface for: it knows the range, and neither the
+    /// incidence nor how much of the beam came back. 0 to 1.
+    double brightness(const Echo& echo) {
+        const double reflectivity = echo.energy * echo.range * echo.range;
+        const double noisy = reflectivity * (1.0 + normal(engine_, profile_.intensity_noise));
+        return std::round(std::clamp(kWhite * noisy, 0.0, kBrightest)) / kBrightest;
+    }
+
+    void add(const Eigen::Vector3d& point, double intensity, std::uint8_t point_label,
+             LidarMessage& message) const {
+        const double step = profile_.quantised == LidarProfile::Quantised::coordinates
+                                ? profile_.quantisation
+                                : 0.0;
+        message.x.push_back(static_cast<float>(to_steps(point.x(), step)));
+        message.y.push_back(static_cast<float>(to_steps(point.y(), step)));
+        message.z.push_back(static_cast<float>(to_steps(point.z(), step)));
+        message.intensity.push_back(static_cast<float>(intensity));
+        message.label.push_back(point_label);
+    }
+
+    const LidarDevice& device_;
+    const LidarProfile& profile_;
+    const Motion& motion_;
+    const ScanPattern& pattern_;
+    Footprint footprint_;
+    Receiver receiver_;
+    double rim_;
+    Engine engine_;
+};
+
+}  // namespace
+
+std::vector<LidarMessage> simulate_lidar(const World& world, const LidarDevice& device,
+                                         const Motion& motion, double duration, std::uint64_t seed,
+                                         const Run& run) {
+    const LidarProfile& profile = device.profile;
+    // Half a nanosecond forgives 0.3 s that is a little less in binary.
+    const double pulses = std::floor((duration + 5e-10) * profile.points_per_second);
+    const double per_message = profile.points_per_second / profile.messages_per_second;
+    std::vector<LidarMessage> messages(
+        pulses > 0.0 ? static_cast<std::size_t>(std::ceil(pulses / per_message - 1e-9)) : 0);
+    const auto first_of = [&](std::size_t message) {
+        return static_cast<std::int64_t>(
+            std::min(pulses, std::ceil(static_cast<double>(message) * per_message - 1e-9)));
+    };
+    // The motors ran before the capture: another seed is another part of the pattern.
+    Engine starter(mix(seed, 0));
+    const ScanPattern pattern(profile, uniform(starter, 0.0, kLongestStart));
+    tbb::task_arena arena(run.threads());
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, messages.size(), [&](std::size_t i) {
+            if (run.cancelled()) return;
+            LidarMessage& message = messages[i];
+            message.stamp = static_cast<double>(i) / profile.messages_per_second;
+            Shooter shooter(world, device, motion, pattern, mix(seed, i + 1));
+            for (std::int64_t pulse = first_of(i); pulse < first_of(i + 1); ++pulse)
+                shooter.shoot(pulse, message);
+        });
+    });
+    run.check_cancelled();
+    return messages;
+}
+
+}  // namespace petal::simulation
