@@ -12,6 +12,7 @@
 #include <opencv2/calib3d.hpp>
 #include <string>
 
+#include "petal/calibration/polygon.hpp"
 #include "petal/error.hpp"
 
 namespace petal {
@@ -20,29 +21,6 @@ namespace {
 
 /// Two board points closer than this are the same, m.
 constexpr double kSamePoint = 1e-6;
-
-bool inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const auto& a = polygon[i];
-        const auto& b = polygon[j];
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
-            in = !in;
-    }
-    return in;
-}
-
-double distance_to_edge(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
-    double nearest = 1e9;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Eigen::Vector2d& a = polygon[i];
-        const Eigen::Vector2d d = polygon[(i + 1) % polygon.size()] - a;
-        const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-        nearest = std::min(nearest, (a + t * d - p).norm());
-    }
-    return nearest;
-}
 
 std::size_t index_of(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p) {
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -151,12 +129,13 @@ void HoleLayout::sample_points() {
     for (double y = low.y(); y <= high.y(); y += step) {
         for (double x = low.x(); x <= high.x(); x += step) {
             const Eigen::Vector2d p(x, y);
-            if (!inside(target_.outline, p) || distance_to_edge(target_.outline, p) < margin)
+            if (!inside_polygon(target_.outline, p) ||
+                distance_to_polygon(target_.outline, p) < margin)
                 continue;
             bool in_hole = false, near_edge = false;
             for (const auto& hole : target_.holes) {
-                in_hole = in_hole || inside(hole, p);
-                near_edge = near_edge || distance_to_edge(hole, p) < margin;
+                in_hole = in_hole || inside_polygon(hole, p);
+                near_edge = near_edge || distance_to_polygon(hole, p) < margin;
             }
             if (near_edge) continue;
             (in_hole ? hole_points_ : plate_points_).push_back(p);
