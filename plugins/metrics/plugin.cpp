@@ -3,8 +3,13 @@
 
 #include "petal/plugin.hpp"
 
+#include "metrics/labels.hpp"
 #include "metrics/reprojection.hpp"
+#include "metrics/truth.hpp"
 #include "petal/calibration/metrics.hpp"
 
-PETAL_PLUGIN("metrics", "0.1.0",
-             [](petal::Registrar& r) { r.add<petal::ReprojectionMetric>("metric.reprojection"); });
+PETAL_PLUGIN("metrics", "0.1.0", [](petal::Registrar& r) {
+    r.add<petal::LabelsMetric>("metric.labels");
+    r.add<petal::ReprojectionMetric>("metric.reprojection");
+    r.add<petal::TruthMetric>("metric.truth");
+});

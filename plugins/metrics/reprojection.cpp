@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "metrics/detail/error_figures.hpp"
+#include "metrics/detail/scene_name.hpp"
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
@@ -73,10 +74,7 @@ void ReprojectionMetric::finish(Run& run) {
                 errors.push_back({pair.image - *pixel, pair.lidar.norm(), pair.board >= 0});
             }
         }
-        // A name is what tells a scene from the total.
-        const std::string name =
-            scene.frame.name.empty() ? std::to_string(scene.frame.number) : scene.frame.name;
-        for (Metric& figure : error_figures(errors, name))
+        for (Metric& figure : error_figures(errors, scene_name(scene.frame)))
             metrics.values.push_back(std::move(figure));
         total.insert(total.end(), errors.begin(), errors.end());
     }
