@@ -182,6 +182,12 @@ Truth board_truth() {
     Truth truth;
     truth.T_camera_lidar = camera_of_lidar();
     truth.boards.push_back({kTarget, board_pose(), board_corners(), board_pixels()});
+    const Cloud cloud = board_cloud();
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        float x = 0.0F, y = 0.0F, z = 0.0F;
+        cloud.points->getPoint(i, x, y, z);
+        truth.labels.push_back(x < 2.5F ? 1 : 0);  // the board, and what is seen through its holes
+    }
     return truth;
 }
 
