@@ -21,63 +21,71 @@ constexpr std::uint64_t kSmall = std::uint64_t{1} << 16U;
 
 /// How the last read, or the last two, are to be understood.
 enum class Meaning {
-    count,       ///< so many elements follow
-    after_none,  ///< so many elements follow, where the count before it was 0
-    area,        ///< rows and columns: so many elements follow
-    raw_image,   ///< width and height, both negative where the pixels follow as they are
+    count,      ///< so many elements follow
+    made,       ///< MRPT makes so many elements, of which the file holds none
+    area,       ///< rows and columns: so many elements follow
+    raw_image,  ///< width and height, both negative where the pixels follow as they are
 };
 
 /// A place where a count stands.
 struct Place {
     const char* outer;    ///< class of the object; "" for any
     const char* last;     ///< class of the last header
-    const char* reads;    ///< regular expression of the sizes since, the count's own included
+    const char* reads;    ///< the sizes since, the count's own included; see expression()
     std::uint64_t bytes;  ///< of an element in the file, at least
     Meaning meaning;
+    int from_version = 0;  ///< of the class of the object; where that is any, of the last header
+    int to_version = 255;
 };
 
 constexpr std::array kPlaces = {
     Place{"", "CSimplePointsMap", "4", 12, Meaning::count},
     Place{"", "CPointsMapXYZI", "4", 12, Meaning::count},
     Place{"", "CColouredPointsMap", "4", 12, Meaning::count},
-    Place{"", "CColouredPointsMap", "4...4(.4)?(.4)?", 4, Meaning::count},
-    Place{"", "CColouredPointsMap", "(4...)?44", 4, Meaning::after_none},
+    Place{"", "CColouredPointsMap", "(0|4...)v?v?4", 4, Meaning::count, 8},  // colours
+    Place{"", "CColouredPointsMap", "(0|4....?)x1{5,6}x1xv?v?v?4", 4, Meaning::count, 0, 7},
     Place{"", "CWeightedPointsMap", "4", 12, Meaning::count},
     Place{"CObservationPointCloud", "CObservationPointCloud", "4", 1, Meaning::count},  // label
     Place{"CObservationPointCloud", "CPose3D", "8+114", 1, Meaning::count},  // external file
     Place{"CObservation2DRangeScan", "CPose3D", "8+14", 4, Meaning::count},
-    Place{"CObservation2DRangeScan", "CPose3D", "8+14..4844", 1, Meaning::count},  // label
+    Place{"CObservation2DRangeScan", "CPose3D", "8+1(0|4..)x8x4", 1, Meaning::count},  // label
     Place{"CObservation3DRangeScan", "CPose3D", "8+114", 12, Meaning::count},
-    Place{"CObservation3DRangeScan", "CPose3D", "8+11(4|4.....)?1444", 2, Meaning::area},
-    Place{"CObservation3DRangeScan", "CPose3D", "8+1484", 1, Meaning::count},  // label
+    Place{"CObservation3DRangeScan", "CPose3D", "8+11(x|x.....)?1xx4", 2, Meaning::area},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x84", 1, Meaning::count},  // label
     Place{"CObservationVelodyneScan", "CObservationVelodyneScan", "84", 1, Meaning::count},
     Place{"CObservationVelodyneScan", "CPose3D", "8+14", 1206, Meaning::count},  // packets
-    Place{"CObservationVelodyneScan", "CPose3D", "8+14.4", 72, Meaning::count},  // calibration
-    Place{"CObservationVelodyneScan", "CPose3D", "8+14.4.4(44?4?)?", 1, Meaning::count},
+    Place{"CObservationVelodyneScan", "CPose3D", "8+1v4", 72, Meaning::count},   // calibration
+    Place{"CObservationVelodyneScan", "CPose3D", "8+1vvv?v?v?4", 1, Meaning::count},
     Place{"CObservationRotatingScan", "CObservationRotatingScan", "84", 1, Meaning::count},
-    Place{"CObservationRotatingScan", "CObservationRotatingScan", "84.?2288884", 1, Meaning::count},
+    Place{"CObservationRotatingScan", "CObservationRotatingScan", "8v2288884", 1, Meaning::count},
     Place{"CObservationRotatingScan", "CPose3D", "8+18122", 2, Meaning::area},
     Place{"CObservationRotatingScan", "CPose3D", "8+18122.22", 1, Meaning::area},
-    Place{"", "CImage", "1144", 3, Meaning::raw_image},
-    Place{"", "CImage", "11444", 1, Meaning::count},                              // a JPEG's bytes
-    Place{"", "CImage", "114444", 1, Meaning::count},                             // grey pixels
+    Place{"", "CImage", "11x4", 3, Meaning::raw_image},
+    Place{"", "CImage", "11xx4", 1, Meaning::count},                              // a JPEG's bytes
+    Place{"", "CImage", "11xxx4", 1, Meaning::count},                             // grey pixels
     Place{"", "CImage", "14", 1, Meaning::count},                                 // external file
     Place{"CObservationImage", "CImage", "1.*184", 1, Meaning::count},            // label
     Place{"CObservationStereoImages", "CPose3DQuat", "8+14", 1, Meaning::count},  // label
     Place{"CObservationOdometry", "CPose2D", "8+14", 1, Meaning::count},          // label
     Place{"CObservationIMU", "CPose3D", "8+1.8.4", 1, Meaning::count},            // label
     Place{"CObservationComment", "CObservationComment", "4", 1, Meaning::count},
-    Place{"", "TCamera", "8+444", 1, Meaning::count},  // name
-    Place{"", "CMatrixD", "44", 8, Meaning::area},
-    Place{"", "CMatrixF", "44", 4, Meaning::area},
+    Place{"", "TCamera", "8+xx4", 1, Meaning::count},  // name
+    Place{"", "CMatrixD", "x4", 8, Meaning::area},
+    Place{"", "CMatrixF", "x4", 4, Meaning::area},
     // After a pose of the old format, which holds a matrix.
-    Place{"CObservation2DRangeScan", "CMatrixD", "44.114", 4, Meaning::count},
+    Place{"CObservation2DRangeScan", "CMatrixD", "xx.114", 4, Meaning::count},
     Place{"", "CPosePDFParticles", "4", 24, Meaning::count},
+    // Particles of a movement by the model of Thrun: 300 is usual, a million is too many.
+    Place{"CActionRobotMovement2D", "CPose2D", "8+1x{7}4", 1024, Meaning::made, 4},
+    Place{"CActionRobotMovement2D", "CPose2D", "8+1x{6}4", 1024, Meaning::made, 0, 3},
     Place{"", "CSensoryFrame", "4", 2, Meaning::count},
     Place{"", "CActionCollection", "4", 2, Meaning::count},
 };
 
-char token(std::size_t count) {
+/// Of a read: its size, 0 for four bytes that are zero, n for any other size.
+char token(const void* bytes, std::size_t count) {
+    constexpr std::array<char, 4> kZero = {};
+    if (count == 4 && std::memcmp(bytes, kZero.data(), 4) == 0) return '0';
     return count == 1 || count == 2 || count == 4 || count == 8 ? static_cast<char>('0' + count)
                                                                 : 'n';
 }
@@ -87,19 +95,25 @@ std::string without_namespace(const std::string& name) {
     return colons == std::string::npos ? name : name.substr(colons + 2);
 }
 
-const std::regex& expression(std::size_t place) {
+/// A place's reads are a regular expression of tokens, in which x stands for any four bytes and v
+/// for a vector: a count and its elements, or 0 and none.
+std::regex expression(const std::string& reads) {
+    const std::string any_four = std::regex_replace(reads, std::regex("x"), "[04]");
+    return std::regex(std::regex_replace(any_four, std::regex("v"), "(?:0|4.)"));
+}
+
+bool matches(const std::string& reads, std::size_t place) {
     static const auto kAll = [] {
         std::array<std::regex, kPlaces.size()> all;
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::regex(kPlaces[i].reads);
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = expression(kPlaces[i].reads);
         return all;
     }();
-    return kAll[place];
+    return std::regex_match(reads, kAll[place]);
 }
 
 /// Elements that the last reads claim.
 std::uint64_t claimed(Meaning meaning, std::uint32_t previous, std::uint32_t value) {
-    if (meaning == Meaning::count) return value;
-    if (meaning == Meaning::after_none) return previous == 0 ? value : 0;
+    if (meaning == Meaning::count || meaning == Meaning::made) return value;
     if (meaning == Meaning::area) return std::uint64_t{previous} * value;
     const auto width = static_cast<std::int32_t>(previous);
     const auto height = static_cast<std::int32_t>(value);
@@ -122,6 +136,8 @@ void ClaimCheck::begin_object() {
 bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
     if (version_next_) {
         version_next_ = false;
+        last_version_ = *static_cast<const unsigned char*>(bytes);
+        if (outer_ == last_) outer_version_ = last_version_;
         return count == 1 || count == 4;  // 4 before 2008
     }
     if (name_length_ == 0 || count != name_length_) return false;
@@ -140,8 +156,9 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
         problem_ = "a movement estimated by method " + std::to_string(value_) + " has a " + name +
                    " for its distribution";
     last_ = name;
-    // Of what can hold observations, the observation counts.
-    if (last_.rfind("CObservation", 0) == 0 || outer_.empty()) outer_ = last_;
+    // Of what can hold observations or actions, the observation or action counts.
+    if (last_.rfind("CObservation", 0) == 0 || last_.rfind("CAction", 0) == 0 || outer_.empty())
+        outer_ = last_;
     reads_.clear();
     version_next_ = true;
     name_length_ = 0;
@@ -161,7 +178,7 @@ std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::ui
     }
     constexpr std::size_t kMostReads = 64;  // no count of ours stands further from its header
     if (last_.empty() || reads_.size() > kMostReads) return {};
-    reads_ += token(count);
+    reads_ += token(bytes, count);
     if (count != 2 && count != 4) return {};
     previous_ = value_;
     value_ = 0;
@@ -171,9 +188,11 @@ std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::ui
     for (std::size_t i = 0; i < kPlaces.size(); ++i) {
         const Place& place = kPlaces[i];
         if (last_ != place.last || (*place.outer != 0 && outer_ != place.outer)) continue;
-        if (!std::regex_match(reads_, expression(i))) continue;
+        const int version = *place.outer != 0 ? outer_version_ : last_version_;
+        if (version < place.from_version || version > place.to_version) continue;
+        if (!matches(reads_, i)) continue;
         const std::uint64_t elements = claimed(place.meaning, previous_, value_);
-        if (elements > can_follow / place.bytes)
+        if (place.meaning != Meaning::made && elements > can_follow / place.bytes)
             return "it claims " + std::to_string(elements) + " elements of " +
                    std::to_string(place.bytes) + " bytes or more, but at most " +
                    std::to_string(can_follow) + " bytes can follow";

@@ -25,13 +25,15 @@ class ClaimCheck {
    private:
     bool is_header(const void* bytes, std::size_t count);
 
-    std::string outer_;            ///< class of the object (in a sensory frame: of the observation)
+    std::string outer_;            ///< class of the object; in a frame or collection, of its part
     std::string last_;             ///< class of the last header, without its namespace
-    std::string reads_;            ///< sizes since that header: 1 2 4 8, n for any other
+    std::string reads_;            ///< a token for each read since that header
     std::string problem_;          ///< of a header
     std::size_t name_length_ = 0;  ///< of a class name that may come next
     std::size_t old_length_ = 0;   ///< the same, of the old format
     bool version_next_ = false;
+    int outer_version_ = 0;
+    int last_version_ = 0;
     std::uint32_t value_ = 0;     ///< of the last read of 2 or 4 bytes
     std::uint32_t previous_ = 0;  ///< of that before it
 };
