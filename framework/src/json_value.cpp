@@ -114,6 +114,14 @@ std::optional<JsonValue> JsonValue::find(const std::string& key) const {
     return JsonValue(document_, &node_->find(key)->value, path_join(path_, key));
 }
 
+std::vector<std::string> JsonValue::keys() const {
+    if (!node_->is(NodeKind::object))
+        fail("is " + describe(*node_) + "; expected an object, {...}");
+    std::vector<std::string> keys;
+    for (const JsonMember& member : node_->members) keys.push_back(member.key);
+    return keys;
+}
+
 bool JsonValue::is_list() const {
     return node_->is(NodeKind::array);
 }

@@ -45,6 +45,8 @@ class JsonValue {
     /// \throws Error where the key is missing.
     JsonValue at(const std::string& key) const;
     std::optional<JsonValue> find(const std::string& key) const;
+    /// In the order of the file; those that were laid over another document come last.
+    std::vector<std::string> keys() const;
 
     // --- lists
     bool is_list() const;
