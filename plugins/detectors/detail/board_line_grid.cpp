@@ -40,8 +40,9 @@ HoleGrid HoleGrid::of(const Target& target) {
     grid.height = target.height();
     grid.corners = target.corners();
     if (target.holes.empty())
-        throw Error("target '" + target.name +
-                    "' has no hole; board_lines needs rectangular holes");
+        throw Error("target '" + target.name + "' shows " + target.features() +
+                    "; board_lines needs rectangular holes: take another target or another "
+                    "lidar_board_detector");
     struct Box {
         Eigen::Vector2d low, high;
     };

@@ -79,8 +79,9 @@ std::optional<Homography> fit_homography(const std::vector<Eigen::Vector2d>& boa
 
 HoleLayout::HoleLayout(const Target& target) : target_(target), corners_(target.corners()) {
     if (target_.holes.size() < 2)
-        throw Error("target '" + target_.name + "' has " + std::to_string(target_.holes.size()) +
-                    " holes; this detector needs two or more: use another target or detector");
+        throw Error("target '" + target_.name + "' shows " + target_.features() +
+                    "; image_contours needs two or more holes with four corners: take another "
+                    "target or another image_board_detector");
     double length = 0.0;
     for (std::size_t h = 0; h < target_.holes.size(); ++h) {
         const auto& hole = target_.holes[h];

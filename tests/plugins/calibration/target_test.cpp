@@ -98,24 +98,25 @@ TEST_F(TargetFile, ReadsAnotherBoard) {
 }
 
 TEST_F(TargetFile, NamesWhatIsWrong) {
-    EXPECT_THAT(refusal("{"), HasSubstr("is not JSON"));
-    EXPECT_THAT(refusal("[]"), HasSubstr("object"));
+    EXPECT_THAT(refusal("{"), HasSubstr("board.json:1"));
+    EXPECT_THAT(refusal("[]"), HasSubstr("expected an object"));
     EXPECT_THAT(refusal(R"({"petal_target": 2})"), HasSubstr("must be 1"));
     EXPECT_THAT(refusal(R"({"petal_target": 1, "colour": "red"})"),
-                HasSubstr("unknown key 'colour'"));
-    EXPECT_THAT(refusal(R"({"petal_target": 1, "name": "a", "name": "b"})"), HasSubstr("twice"));
+                HasSubstr("colour is not known here"));
+    EXPECT_THAT(refusal(R"({"petal_target": 1, "name": "a", "name": "b"})"),
+                HasSubstr("duplicate key 'name'"));
     EXPECT_THAT(refusal(R"({"petal_target": 1, "name": "a"})"),
-                HasSubstr("'thickness' is missing"));
-    EXPECT_THAT(refusal(board(square_, "[]")), HasSubstr("at least one"));
+                HasSubstr("lacks the key 'thickness'"));
+    EXPECT_THAT(refusal(board(square_, "[]")), HasSubstr("at least one of holes, round_holes"));
     EXPECT_THAT(refusal(board("[[0,0],[1]]", "[]")), HasSubstr("outline"));
     EXPECT_THAT(refusal(board(R"([[0,0],["a",0],[1,1]])", "[]")), HasSubstr("outline[1]"));
     EXPECT_THAT(refusal(board("[[0,0],[0,0.5],[0.5,0.5],[0.5,0]]", "[" + hole_ + "]")),
                 HasSubstr("counter-clockwise"));
     EXPECT_THAT(refusal(board(square_, "[[[0.4,0.4],[0.6,0.4],[0.6,0.6],[0.4,0.6]]]")),
-                HasSubstr("leaves the outline"));
+                HasSubstr("holes[0] leaves the outline"));
     EXPECT_THAT(
         refusal(board(square_, "[" + hole_ + ", [[0.15,0.15],[0.3,0.15],[0.3,0.3],[0.15,0.3]]]")),
-        HasSubstr("overlaps"));
+        HasSubstr("holes[1] overlaps holes[0]"));
     EXPECT_THAT(
         refusal(board(square_, "[[[0.3,0.3],[0.4,0.3],[0.4,0.4],[0.3,0.4]], " + hole_ + "]")),
         HasSubstr("row by row"));
@@ -132,6 +133,79 @@ TEST_F(TargetFile, MillimetresAreNoBoard) {
 
 TEST_F(TargetFile, AFolderIsNoTarget) {
     EXPECT_THROW(load_target(folder_), Error);
+}
+
+TEST_F(TargetFile, NamesWhatIsWrongWithRoundHolesAndPrints) {
+    const auto with = [this](const std::string& rest) {
+        return refusal(R"({"petal_target": 1, "name": "b", "thickness": 0.005, "outline": )" +
+                       square_ + ", " + rest + "}");
+    };
+    EXPECT_THAT(with(R"("round_holes": [{"centre": [0.1, 0.1], "radius": 0.11}])"),
+                HasSubstr("round_holes[0] leaves the outline"));
+    EXPECT_THAT(with(R"("round_holes": [{"centre": [0.1, 0.1], "radios": 0.05}])"),
+                HasSubstr("did you mean 'radius'"));
+    EXPECT_THAT(with(R"("round_holes": [{"centre": [0.1, 0.1], "radius": 0.05},
+                                        {"centre": [0.18, 0.1], "radius": 0.05}])"),
+                HasSubstr("round_holes[1] overlaps round_holes[0]"));
+    EXPECT_THAT(with(R"("round_holes": [{"centre": [0.3, 0.1], "radius": 0.05},
+                                        {"centre": [0.1, 0.1], "radius": 0.05}])"),
+                HasSubstr("round_holes[1] comes before its predecessor"));
+    EXPECT_THAT(with(R"("holes": [)" + hole_ + R"(], "prints": [{"kind": "checkerboard",
+                        "corner": [0.15, 0.15], "square": 0.05, "columns": 3, "rows": 3}])"),
+                HasSubstr("prints[0] overlaps holes[0]"));
+    EXPECT_THAT(with(R"("prints": [{"kind": "checkerboard", "corner": [0.1, 0.1], "square": 0.1,
+                        "columns": 5, "rows": 3}])"),
+                HasSubstr("prints[0] leaves the outline"));
+    EXPECT_THAT(with(R"("prints": [{"kind": "chessboard"}])"), HasSubstr("checkerboard"));
+    EXPECT_THAT(with(R"("prints": [{"kind": "aruco", "dictionary": "6x6_25", "id": 1,
+                        "corner": [0, 0], "size": 0.1}])"),
+                HasSubstr("6x6_250"));
+    EXPECT_THAT(with(R"("prints": [{"kind": "aruco", "dictionary": "4x4_50", "id": 50,
+                        "corner": [0, 0], "size": 0.1}])"),
+                HasSubstr("0 to 49"));
+    // A marker alone is not what any detector of boards looks for.
+    EXPECT_THAT(with(R"("prints": [{"kind": "aruco", "dictionary": "4x4_50", "id": 5,
+                        "corner": [0, 0], "size": 0.1}])"),
+                HasSubstr("something to look for"));
+    EXPECT_THAT(with(R"("holes": [)" + hole_ + R"(], "surface": {"colour": [0.1, 0.2, 1.2]})"),
+                HasSubstr("surface.colour"));
+    EXPECT_THAT(with(R"("holes": [)" + hole_ + R"(], "surface": {"reflectivity": 70})"),
+                HasSubstr("expected 0 to 1"));
+}
+
+TEST_F(TargetFile, PrintsMayTouchTheRim) {
+    const Target target = load_target(write(
+        R"({"petal_target": 1, "name": "b", "thickness": 0, "outline": )" + square_ +
+        R"(, "prints": [{"kind": "checkerboard", "corner": [0, 0], "square": 0.1, "columns": 5,
+                         "rows": 5}]})"));
+    EXPECT_EQ(target.corners().size(), 16U);
+}
+
+TEST(ShippedTarget, RoundHolesGiveTheirCentres) {
+    const Target target = load_target("four_round_holes_aruco");
+    EXPECT_EQ(target.round_holes.size(), 4U);
+    EXPECT_EQ(target.markers.size(), 4U);
+    EXPECT_EQ(target.features(), "4 round holes, 4 markers");
+    EXPECT_TRUE(target.lines_x().empty());
+    const std::vector<Eigen::Vector2d> centres = {
+        {0.45, 0.3}, {0.95, 0.3}, {0.45, 0.7}, {0.95, 0.7}};
+    EXPECT_EQ(target.corners(), centres);
+}
+
+TEST(ShippedTarget, ACheckerboardGivesItsInnerCorners) {
+    const Target target = load_target("checkerboard");
+    const auto corners = target.corners();
+    ASSERT_EQ(corners.size(), 7U * 5U);
+    EXPECT_LT((corners.front() - Eigen::Vector2d(0.12, 0.13)).norm(), 1e-12);
+    EXPECT_LT((corners[1] - Eigen::Vector2d(0.18, 0.13)).norm(), 1e-12);
+    EXPECT_LT((corners.back() - Eigen::Vector2d(0.48, 0.37)).norm(), 1e-12);
+}
+
+TEST(ShippedTarget, PolygonalHolesGoBeforeRoundOnes) {
+    Target target = load_target("four_square_holes_1000mm");
+    target.round_holes.push_back({{0.5, 0.5}, 0.05});
+    EXPECT_EQ(target.corners().size(), 16U);
+    EXPECT_EQ(target.features(), "4 polygonal holes, 1 round hole");
 }
 
 }  // namespace

@@ -232,6 +232,24 @@ TEST(BoardLines, AnUnknownTargetIsAnError) {
     EXPECT_THROW(stage.fire(), Error);
 }
 
+TEST(BoardLines, ATargetWithoutRectangularHolesIsRefused) {
+    const std::pair<const char*, const char*> targets[] = {
+        {"four_round_holes_aruco", "4 round holes, 4 markers"}, {"checkerboard", "1 checkerboard"}};
+    for (const auto& [target, shows] : targets) {
+        auto stage = StageHarness::of<BoardLines>();
+        stage.set("target", target);
+        stage.give<Cloud>("cloud", Cloud()).give<Planes>("planes", Planes());
+        try {
+            stage.fire();
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr(target));
+            EXPECT_THAT(error.what(), HasSubstr(shows));
+            EXPECT_THAT(error.what(), HasSubstr("needs rectangular holes"));
+        }
+    }
+}
+
 TEST(BoardLines, NormalsAlongTheLidarsZHaveAnOrderToo) {
     // A board on the floor, seen from above: up is the LiDAR's +x.
     Rng rng(7);

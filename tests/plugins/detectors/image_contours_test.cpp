@@ -249,6 +249,23 @@ TEST(ImageContours, StopsWhenCancelled) {
     EXPECT_THROW(stage.fire(), Cancelled);
 }
 
+TEST(ImageContours, ATargetWithoutHolesOfFourCornersIsRefused) {
+    const std::pair<const char*, const char*> targets[] = {
+        {"four_round_holes_aruco", "4 round holes, 4 markers"}, {"checkerboard", "1 checkerboard"}};
+    for (const auto& [target, shows] : targets) {
+        StageHarness stage = detector();
+        stage.set("target", target).give<Images>("images", Images{});
+        try {
+            stage.fire();
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr(target));
+            EXPECT_THAT(error.what(), HasSubstr(shows));
+            EXPECT_THAT(error.what(), HasSubstr("holes with four corners"));
+        }
+    }
+}
+
 TEST(ImageContours, MoreHolesAskedForThanTheTargetHasIsRefused) {
     StageHarness stage = detector();
     stage.set("min_holes", 5).give<Images>("images", Images{});
