@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "petal/calibration/target.hpp"
+#include "petal/run.hpp"
+#include "simulation/camera/camera_simulation.hpp"
+#include "simulation/lidar/lidar_simulation.hpp"
+
+namespace petal::simulation {
+
+struct SceneBoard {
+    Target target;
+    Eigen::Isometry3d T_world_board;  ///< world frame = LiDAR frame at time 0
+};
+
+struct SceneCamera {
+    CameraDevice device;
+    Eigen::Isometry3d T_camera_lidar;
+};
+
+/// The sensors on their mounting: what stays the same from scene to scene.
+struct Rig {
+    std::string lidar_label = "LIDAR";
+    LidarDevice lidar;
+    std::vector<SceneCamera> cameras;
+};
+
+/// One still capture, ready to be simulated.
+struct Scene {
+    std::string name;
+    World world;
+    Light light;
+    std::vector<SceneBoard> boards;
+    Motion motion;
+    double duration = 10.0;  ///< s
+    int images = 3;          ///< of each camera, spread over the duration
+};
+
+/// A scene file (datasets/scenes): what stands where, and how it may vary from seed to seed.
+/// The file holds one capture or several; docs/simulator.md tells its keys.
+class SceneFile {
+   public:
+    /// `name_or_path`: a scene that petal ships, or a JSON file. \throws Error naming file, key and
+    /// what was expected.
+    static SceneFile load(const std::filesystem::path& name_or_path);
+    ~SceneFile();
+    SceneFile(SceneFile&&) noexcept;
+    SceneFile& operator=(SceneFile&&) noexcept;
+
+    const std::string& name() const;
+    /// Every file that it was read from (itself, what it is based on, targets, the sensor's
+    /// profile).
+    const std::vector<std::filesystem::path>& files() const;
+    std::size_t captures() const;
+
+    /// A rig within the file's tolerances around its nominal mounting. `lidar` names another sensor
+    /// profile than the file's; empty: the file's.
+    Rig make_rig(const std::filesystem::path& lidar, Rng& rng) const;
+    /// Capture `index` with its random placement.
+    Scene make_scene(std::size_t index, Rng& rng) const;
+
+   private:
+    SceneFile();
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
+
+}  // namespace petal::simulation
