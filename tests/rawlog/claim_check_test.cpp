@@ -202,12 +202,33 @@ class Claims : public ::testing::Test {
     const std::string huge_ = std::string(4, '\x7F');
 };
 
-TEST_F(Claims, ARotatingScanOf65535RowsAndColumns) {
-    header("mrpt::obs::CObservationRotatingScan");
-    header("mrpt::poses::CPose3D");
-    expect_sound(std::vector<std::string>(7, std::string(8, '\0')));
-    expect_sound({byte_, std::string(8, '\0'), byte_, std::string(2, '\xFF')});
-    EXPECT_THAT(read(std::string(2, '\xFF')), HasSubstr("it claims"));
+class RotatingScanClaims : public Claims {
+   protected:
+    void SetUp() override {
+        Claims::SetUp();
+        header("mrpt::obs::CObservationRotatingScan");
+        header("mrpt::poses::CPose3D");
+        expect_sound(std::vector<std::string>(7, std::string(8, '\0')));
+        expect_sound({byte_, std::string(8, '\0'), byte_});
+    }
+
+    const std::string none_ = std::string(2, '\0');
+    const std::string most_ = std::string(2, '\xFF');
+};
+
+TEST_F(RotatingScanClaims, RangesOf65535RowsAndColumns) {
+    expect_sound({most_});
+    EXPECT_THAT(read(most_), HasSubstr("it claims"));
+}
+
+TEST_F(RotatingScanClaims, IntensitiesOf65535RowsAndColumnsWithoutRanges) {
+    expect_sound({none_, most_, most_});
+    EXPECT_THAT(read(most_), HasSubstr("it claims"));
+}
+
+TEST_F(RotatingScanClaims, TheNameOfAnotherLayer) {
+    expect_sound({none_, none_, none_, none_, std::string(2, '\1')});
+    EXPECT_THAT(read(huge_), HasSubstr("it claims"));
 }
 
 // Points, options, and the three colours; no colours of one kind is no bar to a claim of the next.

@@ -59,7 +59,8 @@ constexpr std::array kPlaces = {
     Place{"CObservationRotatingScan", "CObservationRotatingScan", "84", 1, Meaning::count},
     Place{"CObservationRotatingScan", "CObservationRotatingScan", "8v2288884", 1, Meaning::count},
     Place{"CObservationRotatingScan", "CPose3D", "8+18122", 2, Meaning::area},
-    Place{"CObservationRotatingScan", "CPose3D", "8+18122.22", 1, Meaning::area},
+    Place{"CObservationRotatingScan", "CPose3D", "8+18122.?22", 1, Meaning::area},
+    Place{"CObservationRotatingScan", "CPose3D", "8+18122.?22.?2(v.)*4", 1, Meaning::count},
     Place{"", "CImage", "11x4", 3, Meaning::raw_image},
     Place{"", "CImage", "11xx4", 1, Meaning::count},                              // a JPEG's bytes
     Place{"", "CImage", "11xxx4", 1, Meaning::count},                             // grey pixels
