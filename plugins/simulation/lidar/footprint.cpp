@@ -59,51 +59,38 @@ bool Footprint::alike(const Sample& a, const Sample& b) {
 
 const std::vector<Patch>& Footprint::meet(const Ray& beam, const Eigen::Vector3d& up) {
     aim(beam, up);
-    constexpr int kMiddle = kAcross / 2;
-    std::array<Line, kAcross> lines;
-    lines[kMiddle][1] = sample(kAlong / 2, kMiddle);
-    bool whole = true;
-    for (const int across : {0, kAcross - 1})
-        for (const std::size_t end : {0U, 2U}) {
-            Sample& corner = lines[static_cast<std::size_t>(across)][end];
-            corner = sample(end == 0 ? 0 : kAlong - 1, across);
-            whole = whole && alike(lines[kMiddle][1], corner);
+    const Sample centre = sample(kAlong / 2, kAcross / 2);
+    // One diagonal, then the other: no slant of an edge is seen worse than another.
+    falling_ = !falling_;
+    const int start = falling_ ? kAcross - 1 : 0;
+    const Sample low = sample(0, start);
+    if (alike(centre, low)) {
+        const Sample high = sample(kAlong - 1, kAcross - 1 - start);
+        if (alike(centre, high)) {
+            take_whole(centre, low, high);
+            return patches_;
         }
-    if (whole) {
-        take_whole(lines);
-        return patches_;
     }
-    lines[0][1] = sample(kAlong / 2, 0);
-    lines[kMiddle][0] = sample(0, kMiddle);
-    lines[kMiddle][2] = sample(kAlong - 1, kMiddle);
-    lines[kAcross - 1][1] = sample(kAlong / 2, kAcross - 1);
-    for (int across = 0; across < kAcross; ++across)
-        take_line(across, lines[static_cast<std::size_t>(across)]);
+    for (int across = 0; across < kAcross; ++across) take_line(across);
     std::sort(patches_.begin(), patches_.end(),
               [](const Patch& a, const Patch& b) { return a.range < b.range; });
     return patches_;
 }
 
-void Footprint::take_whole(const std::array<Line, kAcross>& lines) {
-    const Sample& centre = lines[kAcross / 2][1];
-    if (centre.hit.surface == nullptr) return;
-    Patch patch{centre.hit.surface, centre.hit.range, centre.energy, 1.0,
-                centre.hit.range,   centre.hit.range};
-    for (const int across : {0, kAcross - 1})
-        for (const std::size_t end : {0U, 2U}) {
-            const Sample& corner = lines[static_cast<std::size_t>(across)][end];
-            patch.energy += corner.energy;
-            patch.nearest = std::min(patch.nearest, corner.hit.range);
-            patch.farthest = std::max(patch.farthest, corner.hit.range);
-        }
-    patch.energy /= 5.0;
-    if (patch.energy > 0.0) patches_.push_back(patch);
+void Footprint::take_whole(const Sample& centre, const Sample& low, const Sample& high) {
+    const double energy = (centre.energy + low.energy + high.energy) / 3.0;
+    if (centre.hit.surface == nullptr || !(energy > 0.0)) return;
+    const auto [nearest, farthest] = std::minmax({centre.hit.range, low.hit.range, high.hit.range});
+    patches_.push_back({centre.hit.surface, centre.hit.range, energy, 1.0, nearest, farthest});
 }
 
-void Footprint::take_line(int across, const Line& line) {
-    for (const Sample& sample : line) add(sample.hit.surface, sample.hit.range, sample.energy);
-    fill(across, 0, kAlong / 2, line[0], line[1]);
-    fill(across, kAlong / 2, kAlong - 1, line[1], line[2]);
+void Footprint::take_line(int across) {
+    const Sample low = sample(0, across);
+    const Sample middle = sample(kAlong / 2, across);
+    const Sample high = sample(kAlong - 1, across);
+    for (const Sample& one : {low, middle, high}) add(one.hit.surface, one.hit.range, one.energy);
+    fill(across, 0, kAlong / 2, low, middle);
+    fill(across, kAlong / 2, kAlong - 1, middle, high);
 }
 
 /// Adds the rays between two of a line.

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "simulation/lidar/echo.hpp"
@@ -15,10 +14,9 @@ namespace petal::simulation {
 /// What the footprint of a pulse meets. The footprint is a rectangle, evenly lit: as high as
 /// footprint_vertical and as wide as footprint_horizontal, upright in the sensor's frame.
 ///
-/// It is sampled by rays on a grid of 15 along its longer side and 3 along the shorter. Five of
-/// them, the corners and the centre, come first: where they meet one plane all of it does. Else the
-/// grid's lines are halved until neighbours agree. What is smaller than half a footprint can so be
-/// missed where nothing else is near.
+/// It is sampled by rays on a grid of 15 along its longer side and 3 along the shorter. The centre
+/// and two opposite corners come first: where they meet one plane all of it does. Else the grid's
+/// lines are halved until neighbours agree. So what is smaller than half a footprint can be missed.
 class Footprint {
    public:
     Footprint(const World& world, const LidarProfile& profile);
@@ -36,12 +34,10 @@ class Footprint {
         Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, world frame
         double energy = 0.0;  ///< as if the whole footprint met the same
     };
-    using Line = std::array<Sample, 3>;  ///< the two ends of a line along, and its middle
-
     void aim(const Ray& beam, const Eigen::Vector3d& up);
     Sample sample(int along, int across) const;
-    void take_whole(const std::array<Line, kAcross>& lines);
-    void take_line(int across, const Line& line);
+    void take_whole(const Sample& centre, const Sample& low, const Sample& high);
+    void take_line(int across);
     void fill(int across, int low, int high, const Sample& at_low, const Sample& at_high);
     void add(const Surface* surface, double range, double energy);
     static bool alike(const Sample& a, const Sample& b);
@@ -53,6 +49,7 @@ class Footprint {
     double short_side_;
     Ray beam_;
     Eigen::Vector3d step_along_, step_across_;
+    bool falling_ = false;  ///< the diagonal that was probed
     std::vector<Patch> patches_;
 };
 
