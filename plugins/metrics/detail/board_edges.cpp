@@ -18,6 +18,8 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 double to_nearest_side(const Target& target, const Eigen::Vector2d& p) {
     double nearest = distance_to_polygon(target.outline, p);
     for (const auto& hole : target.holes) nearest = std::min(nearest, distance_to_polygon(hole, p));
+    for (const Target::RoundHole& hole : target.round_holes)
+        nearest = std::min(nearest, std::abs((p - hole.centre).norm() - hole.radius));
     return nearest;
 }
 
@@ -25,6 +27,8 @@ bool on_plate(const Target& target, const Eigen::Vector2d& p) {
     if (!inside_polygon(target.outline, p)) return false;
     for (const auto& hole : target.holes)
         if (inside_polygon(hole, p)) return false;
+    for (const Target::RoundHole& hole : target.round_holes)
+        if ((p - hole.centre).norm() < hole.radius) return false;
     return true;
 }
 

@@ -13,6 +13,7 @@
 
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/metrics.hpp"
+#include "petal/calibration/target.hpp"
 #include "petal/calibration/truth.hpp"
 #include "petal/error.hpp"
 #include "petal/testing/stage_harness.hpp"
@@ -235,6 +236,21 @@ TEST(LabelsMetric, APointBelongsToTheNearestBoard) {
         stage.fire();
         EXPECT_DOUBLE_EQ(*share(stage.out<Metrics>("metrics"), "before.edge_share"), 0.3);
     }
+}
+
+TEST(LabelsMetric, RoundHolesHaveEdges) {
+    const auto target = load_target("four_round_holes_aruco");
+    ASSERT_FALSE(target.round_holes.empty());
+    const auto& hole = target.round_holes.front();
+    const auto at = [&](double beyond) {
+        const Eigen::Vector2d p = hole.centre + (hole.radius + beyond) * Eigen::Vector2d(0.6, 0.8);
+        return Labelled{{p.x(), p.y(), 0.0}, kBoard};
+    };
+    const std::vector<Labelled> points = {at(0.011), at(-0.011), at(0.013), at(-0.013)};
+    auto stage = one_scene(truth_of(points, {{"four_round_holes_aruco", T_lidar_board(), {}, {}}}),
+                           cloud_of(points), cloud_of(points));
+    stage.fire();
+    EXPECT_DOUBLE_EQ(*share(stage.out<Metrics>("metrics"), "before.edge_share"), 0.5);
 }
 
 TEST(LabelsMetric, PointsWithNaNAreNoEdge) {
