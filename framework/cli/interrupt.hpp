@@ -7,7 +7,11 @@
 
 namespace petal::cli {
 
-/// From now on the first SIGINT or SIGTERM sets the flag; a second one ends the program at once.
+/// From now on SIGINT and SIGTERM end the program at once, with the exit code kCancelled.
+void end_on_interrupt();
+
+/// From now on the first SIGINT or SIGTERM sets the flag; a second one ends the program at once,
+/// with the exit code kCancelled.
 const std::atomic<bool>& catch_interrupts();
 
 }  // namespace petal::cli

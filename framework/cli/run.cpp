@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 #include <iostream>
@@ -11,6 +9,7 @@
 
 #include "command.hpp"
 #include "host_errors.hpp"
+#include "interrupt.hpp"
 #include "petal/output.hpp"
 #include "run_folder.hpp"
 #include "run_guard.hpp"
@@ -21,24 +20,6 @@
 namespace petal::cli {
 
 namespace {
-
-std::atomic<bool> cancel_requested{false};
-/// From here on a run folder has to be left in order.
-std::atomic<bool> folder_made{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "written from a signal handler");
-
-/// The first signal asks the run to end; before there is a run folder, and the second time, the
-/// program ends at once.
-extern "C" void on_signal(int) {
-    if (!folder_made.load() || cancel_requested.exchange(true)) ::_exit(kCancelled);
-}
-
-void catch_signals() {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
-    // A limit on the size of files is an error of the write, like a full disk, not the end.
-    std::signal(SIGXFSZ, SIG_IGN);
-}
 
 int thread_count(int asked) {
     if (asked > 0) return asked;
@@ -82,7 +63,7 @@ PipelineRequest complete_request(const PipelineOptions& options) {
 
 /// Runs, and closes the log. That the log could not be written is an error of the run.
 RunReport run_logged(const Pipeline& pipeline, RunSettings settings, Verbosity verbosity) {
-    RunGuard guard(settings.folder, cancel_requested, kCancelled);
+    RunGuard guard(settings.folder, *settings.cancel, kCancelled);
     RunLog log(settings.folder, verbosity);
     settings.on_progress = [&](const RunProgress& progress) {
         guard.set_at_work(progress.at_work);
@@ -120,7 +101,9 @@ void write_run_json(const RunReport& report, const Pipeline& pipeline,
 }
 
 int run(const PipelineOptions& options, const GlobalOptions& global) {
-    catch_signals();
+    // A limit on the size of files is an error of the write, like a full disk, not the end.
+    std::signal(SIGXFSZ, SIG_IGN);
+    end_on_interrupt();
     const PluginSet plugins = find_plugins(global);
     const PipelineRequest request = complete_request(options);
     int code = kDone;
@@ -131,11 +114,10 @@ int run(const PipelineOptions& options, const GlobalOptions& global) {
     RunSettings settings;
     settings.threads = thread_count(options.threads);
     settings.debug.insert(options.debug.begin(), options.debug.end());
-    folder_made = true;
+    settings.cancel = &catch_interrupts();  // a run folder has to be left in order
     settings.folder = prepare_run_folder(*request.out, options.force,
                                          RunInputs{request.data.value_or(""), request.file});
     settings.thread_limits = plugins.thread_limits;
-    settings.cancel = &cancel_requested;
     const std::filesystem::path folder = settings.folder;
     RunReport report;
     try {

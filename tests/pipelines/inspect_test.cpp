@@ -72,19 +72,39 @@ TEST_F(Inspect, UsageIsTwo) {
     EXPECT_EQ(petal("inspect --yaml a.rawlog").exit_code, 2);
 }
 
-TEST_F(Inspect, AnInterruptEndsItWith130) {
-    // Well compressed, some 9 GB of points: minutes to read.
-    std::string much;
-    const std::string one = bytes_of_objects({cloud("LIDAR", 0.0, 2000)});
-    while (much.size() < 30000000) much += one;
-    const std::string member = gzipped(much);
-    std::ofstream file(folder_ / "long.rawlog", std::ios::binary);
-    for (int i = 0; i < 300; ++i) file << member;
-    file.close();
-    PetalChild child({"inspect", "long.rawlog"}, {folder_});
-    for (int i = 0; i < 1000 && !child.catches(SIGINT); ++i) usleep(10000);
-    child.send(SIGINT);
-    EXPECT_EQ(child.wait(10.0), 130);
+/// inspect at work on a rawlog that takes minutes: well compressed, some 9 GB of points.
+class LongInspect : public Inspect {
+   protected:
+    void SetUp() override {
+        Inspect::SetUp();
+        std::string much;
+        const std::string one = bytes_of_objects({cloud("LIDAR", 0.0, 2000)});
+        while (much.size() < 30000000) much += one;
+        const std::string member = gzipped(much);
+        std::ofstream file(folder_ / "long.rawlog", std::ios::binary);
+        for (int i = 0; i < 300; ++i) file << member;
+        file.close();
+        child_ = std::make_unique<PetalChild>(std::vector<std::string>{"inspect", "long.rawlog"},
+                                              PetalChild::Options{folder_});
+        ASSERT_TRUE(PetalChild::until(30.0, [&] { return child_->catches(SIGTERM); }));
+    }
+
+    std::unique_ptr<PetalChild> child_;
+};
+
+TEST_F(LongInspect, AnInterruptEndsItWith130) {
+    child_->send(SIGINT);
+    EXPECT_EQ(child_->wait(10.0), 130);
+    EXPECT_EQ(read_text(folder_ / ".stderr"), "cancelled\n");
+}
+
+TEST_F(LongInspect, ASecondSignalEndsItAtOnceWith130Too) {
+    child_->send(SIGSTOP);  // so that both come before it goes on
+    child_->send(SIGINT);
+    child_->send(SIGTERM);
+    child_->send(SIGCONT);
+    EXPECT_EQ(child_->wait(10.0), 130);
+    EXPECT_EQ(read_text(folder_ / ".stderr"), "") << "it did not come to its own end";
 }
 
 TEST_F(Inspect, AllRealRawlogs) {
