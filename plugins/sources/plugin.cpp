@@ -7,10 +7,12 @@
 #include "sources/observations.hpp"
 #include "sources/pairs.hpp"
 #include "sources/rawlog.hpp"
+#include "sources/simulator.hpp"
 
 PETAL_PLUGIN("sources", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::FilesSource>("source.files");
     r.add<petal::ObservationsSource>("source.observations");
     r.add<petal::PairsSource>("source.pairs");
     r.add<petal::RawlogSource>("source.rawlog");
+    r.add<petal::SimulatorSource>("source.simulator");
 });
