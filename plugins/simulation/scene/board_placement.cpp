@@ -150,13 +150,13 @@ void BoardPlacement::add_stand(World& world, const SceneBoard& board, double flo
     if (stands_ == Stands::floor) {
         // A prop: from the middle of the back to the floor a hand behind.
         const Eigen::Vector3d foot(back.x() + 0.08 * away.x(), back.y() + 0.08 * away.y(), floor);
-        builder.bar(foot, back, 0.008, material("steel"));
+        builder.bar(foot, back + 0.012 * away, 0.008, material("steel"));
     } else if (stands_ == Stands::pole) {
         // Far enough behind for the board to lean towards it.
         const double lean = std::abs(board.T_world_board.linear().col(1).dot(away));
         const Eigen::Vector3d top = back + (0.05 + 0.5 * target.height() * lean) * away;
         builder.bar({top.x(), top.y(), floor}, top, 0.02, material("dark_steel"));
-        builder.bar(back, top, 0.012, material("dark_steel"));
+        builder.bar(back + 0.015 * away, top, 0.012, material("dark_steel"));
     } else if (stands_ == Stands::hung) {
         for (const double share : {0.1, 0.9}) {
             const Eigen::Vector3d hook =

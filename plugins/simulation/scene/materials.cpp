@@ -51,31 +51,31 @@ std::map<std::string, SharedTexture> make_materials() {
     all["dark_steel"] = plain(grey(0.06F, 0.25F));
     all["glass"] = plain(look(0.02F, 0.025F, 0.03F, 0.03F));
     all["rubber"] = plain(grey(0.02F, 0.06F));
-    all["cloth"] = plain(look(0.06F, 0.09F, 0.2F, 0.35F));
+    all["cloth"] = plain(look(0.12F, 0.17F, 0.34F, 0.35F));
     all["skin"] = plain(look(0.55F, 0.35F, 0.25F, 0.5F));
-    all["wood"] = plain(look(0.32F, 0.18F, 0.09F, 0.5F));
-    all["banner"] = plain(look(0.05F, 0.08F, 0.25F, 0.4F));
+    all["wood"] = plain(look(0.5F, 0.34F, 0.2F, 0.5F));
+    all["banner"] = plain(look(0.1F, 0.16F, 0.4F, 0.4F));
     all["white_wall"] = mottled(grey(0.72F, 0.66F), grey(0.8F, 0.72F), 0.4, 1);
-    all["grey_wall"] = mottled(grey(0.3F, 0.4F), grey(0.38F, 0.46F), 0.4, 2);
+    all["grey_wall"] = mottled(grey(0.4F, 0.42F), grey(0.48F, 0.48F), 0.4, 2);
     all["dark_wall"] = mottled(grey(0.07F, 0.18F), grey(0.11F, 0.24F), 0.4, 3);
     all["concrete"] = mottled(grey(0.28F, 0.32F), grey(0.48F, 0.46F), 0.6, 4);
-    all["asphalt"] = mottled(grey(0.05F, 0.12F), grey(0.12F, 0.2F), 0.08, 5);
+    all["asphalt"] = mottled(grey(0.1F, 0.12F), grey(0.2F, 0.2F), 0.08, 5);
     all["lawn"] =
-        mottled(look(0.02F, 0.06F, 0.01F, 0.35F), look(0.13F, 0.26F, 0.05F, 0.6F), 0.15, 6);
+        mottled(look(0.08F, 0.15F, 0.03F, 0.35F), look(0.22F, 0.38F, 0.1F, 0.6F), 0.15, 6);
     all["leaves"] =
-        mottled(look(0.02F, 0.05F, 0.01F, 0.4F), look(0.12F, 0.24F, 0.04F, 0.65F), 0.1, 7);
+        mottled(look(0.07F, 0.14F, 0.03F, 0.4F), look(0.22F, 0.38F, 0.09F, 0.65F), 0.1, 7);
     all["bark"] =
         mottled(look(0.06F, 0.045F, 0.03F, 0.25F), look(0.14F, 0.1F, 0.07F, 0.35F), 0.05, 8);
-    all["grey_floor"] = mottled(grey(0.1F, 0.25F), grey(0.15F, 0.32F), 0.5, 9);
-    all["brick"] = tiled(look(0.33F, 0.1F, 0.06F, 0.5F), grey(0.42F, 0.4F),
-                         {0.25, 0.08, 0.012, 0.5, 0.25}, 10);
-    all["paving"] = tiled(look(0.45F, 0.29F, 0.23F, 0.4F), grey(0.16F, 0.25F),
+    all["grey_floor"] = mottled(grey(0.2F, 0.28F), grey(0.27F, 0.35F), 0.5, 9);
+    all["brick"] =
+        tiled(look(0.48F, 0.2F, 0.14F, 0.5F), grey(0.5F, 0.4F), {0.25, 0.08, 0.012, 0.5, 0.25}, 10);
+    all["paving"] = tiled(look(0.62F, 0.44F, 0.36F, 0.4F), grey(0.25F, 0.25F),
                           {0.3, 0.3, 0.012, 0.0, 0.12}, 11);
     all["floor_tiles"] =
-        tiled(grey(0.5F, 0.45F), grey(0.15F, 0.25F), {0.4, 0.4, 0.006, 0.0, 0.06}, 12);
+        tiled(grey(0.5F, 0.45F), grey(0.15F, 0.25F), {0.4, 0.4, 0.01, 0.0, 0.06}, 12);
     all["hole_tiles"] =
         tiled(grey(0.1F, 0.15F), grey(0.7F, 0.6F), {0.112, 0.112, 0.012, 0.0, 0.3}, 13);
-    all["wood_floor"] = tiled(look(0.34F, 0.2F, 0.1F, 0.45F), look(0.08F, 0.05F, 0.03F, 0.2F),
+    all["wood_floor"] = tiled(look(0.5F, 0.34F, 0.2F, 0.45F), look(0.15F, 0.1F, 0.06F, 0.2F),
                               {1.2, 0.14, 0.003, 0.37, 0.2}, 14);
     all["brick_windows"] = windows(all["brick"], 15);
     all["white_windows"] = windows(all["white_wall"], 16);

@@ -5,6 +5,7 @@
 
 #include "simulation/world/hash_noise.hpp"
 #include "simulation/world/look_mix.hpp"
+#include "simulation/world/random.hpp"
 
 namespace petal::simulation {
 namespace {
@@ -27,12 +28,12 @@ double value_noise(const Eigen::Vector2d& p, std::uint64_t seed) {
 
 NoiseTexture::NoiseTexture(const Look& low, const Look& high, double size, int octaves,
                            std::uint64_t seed)
-    : low_(low), high_(high), size_(size), octaves_(octaves), seed_(seed) {}
+    : low_(low), high_(high), size_(size), octaves_(octaves), seed_(mix(seed, 0)) {}
 
 double NoiseTexture::value(const Eigen::Vector2d& place) const {
     double sum = 0.0, shares = 0.0, share = 1.0, scale = 1.0 / size_;
     for (int octave = 0; octave < octaves_; ++octave) {
-        sum += share * value_noise(scale * place, mix(seed_, static_cast<std::uint64_t>(octave)));
+        sum += share * value_noise(scale * place, seed_ + static_cast<std::uint64_t>(octave));
         shares += share;
         share *= 0.5;
         scale *= 2.0;

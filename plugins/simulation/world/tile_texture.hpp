@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "simulation/world/random.hpp"
 #include "simulation/world/texture.hpp"
 
 namespace petal::simulation {
@@ -21,7 +22,7 @@ class TileTexture final : public Texture {
         double variation = 0.1;  ///< tiles differ by up to this share either way
     };
     TileTexture(const Look& tile, const Look& joint, const Layout& layout, std::uint64_t seed)
-        : tile_(tile), joint_(joint), layout_(layout), seed_(seed) {}
+        : tile_(tile), joint_(joint), layout_(layout), seed_(mix(seed, 0)) {}
     Look at(const Eigen::Vector2d& place) const override;
 
    private:

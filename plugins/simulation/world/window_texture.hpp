@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "simulation/world/random.hpp"
 #include "simulation/world/texture.hpp"
 
 namespace petal::simulation {
@@ -23,7 +24,11 @@ class WindowTexture final : public Texture {
     };
     WindowTexture(std::shared_ptr<const Texture> wall, const Look& frame, const Look& glass,
                   const Layout& layout, std::uint64_t seed)
-        : wall_(std::move(wall)), frame_(frame), glass_(glass), layout_(layout), seed_(seed) {}
+        : wall_(std::move(wall)),
+          frame_(frame),
+          glass_(glass),
+          layout_(layout),
+          seed_(mix(seed, 0)) {}
     Look at(const Eigen::Vector2d& place) const override;
 
    private:
