@@ -223,7 +223,7 @@ TEST(CameraRender, PixelsBeyondTheModelAreBlack) {
 }
 
 TEST(CameraRender, IsTheSameForAnyNumberOfThreads) {
-    const CameraDevice camera = real_lens(bent_pinhole());
+    const CameraDevice camera = real_lens(plain_camera(480, 270, 343.0));
     const World world = boards_before_a_wall(0.8F, 0.3F);
     const cv::Mat one = render(world, Light{}, camera, T_world_camera(), BareRun(1));
     const cv::Mat four = render(world, Light{}, camera, T_world_camera(), BareRun(4));
