@@ -71,7 +71,7 @@ const std::vector<Patch>& Footprint::meet(const Ray& beam, const Eigen::Vector3d
             return patches_;
         }
     }
-    for (int across = 0; across < kAcross; ++across) take_line(across);
+    take_lines();
     std::sort(patches_.begin(), patches_.end(),
               [](const Patch& a, const Patch& b) { return a.range < b.range; });
     return patches_;
@@ -84,51 +84,88 @@ void Footprint::take_whole(const Sample& centre, const Sample& low, const Sample
     patches_.push_back({centre.hit.surface, centre.hit.range, energy, 1.0, nearest, farthest});
 }
 
-void Footprint::take_line(int across) {
-    const Sample low = sample(0, across);
-    const Sample middle = sample(kAlong / 2, across);
-    const Sample high = sample(kAlong - 1, across);
-    for (const Sample& one : {low, middle, high}) add(one.hit.surface, one.hit.range, one.energy);
-    fill(across, 0, kAlong / 2, low, middle);
-    fill(across, kAlong / 2, kAlong - 1, middle, high);
+Footprint::Line Footprint::line(int across) const {
+    return {sample(0, across), sample(kAlong / 2, across), sample(kAlong - 1, across)};
 }
 
-/// Adds the rays between two of a line.
-void Footprint::fill(int across, int low, int high, const Sample& at_low, const Sample& at_high) {
+void Footprint::take_lines() {
+    constexpr int kLast = kAcross - 1;
+    const Line first = line(0), last = line(kLast);
+    std::array<double, kAcross> weights{};
+    weights[0] = weights[kLast] = 1.0;
+    split_lines(0, kLast, first, last, weights);
+    take_line(0, first, weights[0]);
+    take_line(kLast, last, weights[kLast]);
+}
+
+/// Takes the lines between two; what is between two that are alike counts for those.
+void Footprint::split_lines(int low, int high, const Line& at_low, const Line& at_high,
+                            std::array<double, kAcross>& weights) {
     if (high - low < 2) return;
-    if (alike(at_low, at_high)) {
-        if (at_low.hit.surface == nullptr) return;
-        for (int along = low + 1; along < high; ++along) {
-            const double way = static_cast<double>(along - low) / (high - low);
-            add((way < 0.5 ? at_low : at_high).hit.surface,
-                at_low.hit.range + way * (at_high.hit.range - at_low.hit.range),
-                at_low.energy + way * (at_high.energy - at_low.energy));
-        }
+    const bool same = alike(at_low[0], at_high[0]) && alike(at_low[1], at_high[1]) &&
+                      alike(at_low[2], at_high[2]);
+    if (same) {
+        const double half = 0.5 * (high - low - 1);
+        weights[static_cast<std::size_t>(low)] += half;
+        weights[static_cast<std::size_t>(high)] += half;
         return;
     }
     const int middle = (low + high) / 2;
-    const Sample at_middle = sample(middle, across);
-    add(at_middle.hit.surface, at_middle.hit.range, at_middle.energy);
-    fill(across, low, middle, at_low, at_middle);
-    fill(across, middle, high, at_middle, at_high);
+    const Line at_middle = line(middle);
+    double& weight = weights[static_cast<std::size_t>(middle)];
+    weight = 1.0;
+    split_lines(low, middle, at_low, at_middle, weights);
+    split_lines(middle, high, at_middle, at_high, weights);
+    take_line(middle, at_middle, weight);
 }
 
-void Footprint::add(const Surface* surface, double range, double whole_energy) {
+void Footprint::take_line(int across, const Line& line, double weight) {
+    for (const Sample& one : line) add(one.hit.surface, one.hit.range, one.energy, weight);
+    split(across, 0, kAlong / 2, line[0], line[1], weight);
+    split(across, kAlong / 2, kAlong - 1, line[1], line[2], weight);
+}
+
+/// Takes the rays between two of a line.
+void Footprint::split(int across, int low, int high, const Sample& at_low, const Sample& at_high,
+                      double weight) {
+    if (high - low < 2) return;
+    if (!alike(at_low, at_high)) {
+        const int middle = (low + high) / 2;
+        const Sample at_middle = sample(middle, across);
+        add(at_middle.hit.surface, at_middle.hit.range, at_middle.energy, weight);
+        split(across, low, middle, at_low, at_middle, weight);
+        split(across, middle, high, at_middle, at_high, weight);
+        return;
+    }
+    if (at_low.hit.surface == nullptr) return;
+    // In as many parts as it takes for each to be a patch.
+    const double deep = at_high.hit.range - at_low.hit.range;
+    const int between = high - low - 1;
+    const int parts =
+        static_cast<int>(std::min<double>(between, std::ceil(2.0 * std::abs(deep) / kPatch + 0.5)));
+    for (int part = 0; part < parts; ++part) {
+        const double way = (part + 0.5) / parts;
+        add((way < 0.5 ? at_low : at_high).hit.surface, at_low.hit.range + way * deep,
+            at_low.energy + way * (at_high.energy - at_low.energy), weight * between / parts);
+    }
+}
+
+void Footprint::add(const Surface* surface, double range, double whole_energy, double cells) {
     if (surface == nullptr || !(whole_energy > 0.0)) return;
-    constexpr double kShare = 1.0 / (kAlong * kAcross);
-    const double energy = whole_energy * kShare;
+    const double share = cells / (kAlong * kAcross);
+    const double energy = whole_energy * share;
     for (Patch& patch : patches_) {
         const double nearest = std::min(patch.nearest, range);
         const double farthest = std::max(patch.farthest, range);
         if (patch.surface != surface || farthest - nearest > kPatch) continue;
         patch.energy += energy;
-        patch.share += kShare;
+        patch.share += share;
         patch.range += (range - patch.range) * energy / patch.energy;
         patch.nearest = nearest;
         patch.farthest = farthest;
         return;
     }
-    patches_.push_back({surface, range, energy, kShare, range, range});
+    patches_.push_back({surface, range, energy, share, range, range});
 }
 
 }  // namespace petal::simulation

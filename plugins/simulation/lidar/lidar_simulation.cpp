@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "simulation/lidar/echo.hpp"
 #include "simulation/lidar/footprint.hpp"
@@ -38,7 +39,7 @@ std::uint8_t label_of(Kind kind) {
     return 0;
 }
 
-/// m from `range` to the nearest and the farthest that the footprint met of a surface.
+/// m from `range` to what the footprint met of a surface; 0 within it.
 double distance_to(const Surface* surface, const std::vector<Patch>& patches, double range) {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0.0;
@@ -50,17 +51,19 @@ double distance_to(const Surface* surface, const std::vector<Patch>& patches, do
     return std::max({nearest - range, range - farthest, 0.0});
 }
 
+/// As in labels.u8, of a point that without noise would lie at `range`.
 std::uint8_t label(const std::vector<Patch>& patches, double range, double sigma) {
     constexpr std::uint8_t kVacantPoint = 2;
     const Surface* nearest = nullptr;
-    double distance = std::max(3.0 * sigma, kVacant);
+    double distance = std::numeric_limits<double>::infinity();
     for (const Patch& patch : patches) {
         const double here = distance_to(patch.surface, patches, range);
-        if (here > distance || (here == distance && nearest != nullptr)) continue;
+        if (here >= distance) continue;
         nearest = patch.surface;
         distance = here;
     }
-    return nearest == nullptr ? kVacantPoint : label_of(nearest->kind());
+    if (nearest == nullptr || distance > std::max(3.0 * sigma, kVacant)) return kVacantPoint;
+    return label_of(nearest->kind());
 }
 
 double to_steps(double value, double step) {

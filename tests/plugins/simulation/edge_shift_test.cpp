@@ -82,7 +82,7 @@ constexpr double kThreeSigma =
     0.037;  // m, of the Mid-70's range noise on a white board at 3 to 5 m
 
 TEST(EdgeShift, HolesBeforeAFarBackgroundAreTooSmallMoreSoUpright) {
-    const Sides sides = measured_sides(4.7, 5.0, 0.05);
+    const Sides sides = measured_sides(4.7, 5.0, kThreeSigma);
     EXPECT_THAT(sides.across_mm, AllOf(Ge(90.0), Le(96.0)));
     EXPECT_THAT(sides.upright_mm, AllOf(Ge(76.0), Le(85.0)));
 }
