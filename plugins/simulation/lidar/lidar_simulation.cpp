@@ -3,7 +3,6 @@
 
 #include "simulation/lidar/lidar_simulation.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -13,6 +12,7 @@
 
 #include "simulation/lidar/echo.hpp"
 #include "simulation/lidar/footprint.hpp"
+#include "simulation/lidar/pointing.hpp"
 #include "simulation/lidar/scan_pattern.hpp"
 #include "simulation/world/random.hpp"
 
@@ -24,7 +24,8 @@ namespace {
 constexpr double kWhite = 150.0;
 constexpr double kBrightest = 255.0;
 /// As in labels.u8: how far from every surface a point must lie to be vacant, at least.
-constexpr double kVacant = 0.02;          // m
+constexpr double kVacant = 0.02;  // m
+/// How long the motors may have run before the capture.
 constexpr double kLongestStart = 1000.0;  // s
 
 std::uint8_t label_of(Kind kind) {
@@ -81,7 +82,7 @@ class Shooter {
           pattern_(pattern),
           footprint_(world, device.profile),
           receiver_(device.profile),
-          rim_(device.profile.rim()),
+          pointing_(device),
           engine_(seed) {}
 
     void shoot(std::int64_t pulse, LidarMessage& message) {
@@ -100,7 +101,7 @@ class Shooter {
         const double true_range = echo->range + receiver_.lateness(*echo);
         const double sigma = profile_.range_noise(echo->energy);
         double range = true_range + device_.range_offset + normal(engine_, sigma);
-        const Eigen::Vector3d reported = report(direction);
+        const Eigen::Vector3d reported = pointing_.reported(direction, engine_);
         const double intensity = brightness(*echo);
         if (range < profile_.range_min || range > profile_.range_max) return;
         if (profile_.quantised == LidarProfile::Quantised::range)
@@ -109,35 +110,6 @@ class Shooter {
     }
 
    private:
-    /// The direction that the sensor tells: it does not know its errors.
-    Eigen::Vector3d report(const Eigen::Vector3d& direction) {
-        Eigen::Vector3d told = misaligned(direction);
-        Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(told);
-        if (!(left.squaredNorm() > 1e-12)) left = Eigen::Vector3d::UnitY();
-        left.normalize();
-        told += normal(engine_, profile_.angular_noise) * left +
-                normal(engine_, profile_.angular_noise) * direction.cross(left);
-        return told.normalized();
-    }
-
-    Eigen::Vector3d misaligned(const Eigen::Vector3d& direction) const {
-        if (device_.direction_error_deg == 0.0) return direction;
-        const double error = device_.direction_error_deg * 3.14159265358979323846 / 180.0;
-        const double stretch = rim_ > 0.0 ? 1.0 + error / rim_ : 1.0;
-        const bool has_axis = profile_.pattern.kind == ScanPatternProfile::Kind::prisms;
-        const double aside = direction.tail<2>().norm();
-        if (has_axis) {
-            if (aside == 0.0) return direction;
-            const double angle = std::atan2(aside, direction.x());
-            return off_axis(stretch * angle / aside * direction.tail<2>());
-        }
-        const double level = direction.head<2>().norm();
-        if (level == 0.0) return direction;
-        const double elevation = stretch * std::atan2(direction.z(), level);
-        const Eigen::Vector2d ahead = std::cos(elevation) / level * direction.head<2>();
-        return {ahead.x(), ahead.y(), std::sin(elevation)};
-    }
-
     /// The reflectivity that the sensor takes the surface for: it knows the range, and neither the
     /// incidence nor how much of the beam came back. 0 to 1.
     double brightness(const Echo& echo) {
@@ -164,7 +136,7 @@ class Shooter {
     const ScanPattern& pattern_;
     Footprint footprint_;
     Receiver receiver_;
-    double rim_;
+    Pointing pointing_;
     Engine engine_;
 };
 
