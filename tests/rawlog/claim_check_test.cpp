@@ -88,6 +88,17 @@ std::vector<Case> cases() {
     ranges->cameraParams.nrows = 201;
     ranges->cameraParams.ncols = 202;
     all.push_back({"depth's rows", ranges, points + number(202)});
+    auto layers = CObservation3DRangeScan::Create();
+    layers->rangeImageOtherLayers["A"].resize(0, 0);
+    layers->rangeImageOtherLayers["B"].resize(2, 3);
+    layers->rangeImageOtherLayers["C"].resize(201, 201);
+    layers->rangeImageOtherLayers[label].resize(1, 1);
+    all.push_back({"layer's rows", layers, points + points});
+    all.push_back({"layer's name", layers, number(203)});
+    auto classes = CObservation3DRangeScan::Create();
+    classes->pixelLabels = std::make_shared<TPixelLabelInfo<1>>();
+    classes->pixelLabels->setSize(201, 201);
+    all.push_back({"rows of labels of pixels", classes, points + points});
     auto velodyne = CObservationVelodyneScan::Create();
     velodyne->scan_packets.resize(201);
     velodyne->sensorLabel = label;
@@ -229,6 +240,15 @@ TEST_F(RotatingScanClaims, IntensitiesOf65535RowsAndColumnsWithoutRanges) {
 TEST_F(RotatingScanClaims, TheNameOfAnotherLayer) {
     expect_sound({none_, none_, none_, none_, std::string(2, '\1')});
     EXPECT_THAT(read(huge_), HasSubstr("it claims"));
+}
+
+TEST_F(Claims, DistributionsOfBillionsOfParts) {
+    for (const char* name :
+         {"CPosePDFParticles", "CPosePDFSOG", "CPose3DPDFParticles", "CPose3DPDFSOG"}) {
+        check_.begin_object();
+        header(std::string("mrpt::poses::") + name);
+        EXPECT_THAT(read(huge_), HasSubstr("it claims")) << name;
+    }
 }
 
 // Points, options, and the three colours; no colours of one kind is no bar to a claim of the next.

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <regex>
+#include <utility>
 
 namespace petal {
 namespace {
@@ -51,7 +52,11 @@ constexpr std::array kPlaces = {
     Place{"CObservation2DRangeScan", "CPose3D", "8+1(0|4..)x8x4", 1, Meaning::count},  // label
     Place{"CObservation3DRangeScan", "CPose3D", "8+114", 12, Meaning::count},
     Place{"CObservation3DRangeScan", "CPose3D", "8+11(x|x.....)?1xx4", 2, Meaning::area},
-    Place{"CObservation3DRangeScan", "CPose3D", "8+1x84", 1, Meaning::count},  // label
+    // After the second pose: label and names of external files, labels of pixels, other layers.
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8(v1){0,2}4", 1, Meaning::count},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v11111x4", 1, Meaning::area},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v1111l*4", 1, Meaning::count},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v1111l*vx4", 2, Meaning::area},
     Place{"CObservationVelodyneScan", "CObservationVelodyneScan", "84", 1, Meaning::count},
     Place{"CObservationVelodyneScan", "CPose3D", "8+14", 1206, Meaning::count},  // packets
     Place{"CObservationVelodyneScan", "CPose3D", "8+1v4", 72, Meaning::count},   // calibration
@@ -76,6 +81,9 @@ constexpr std::array kPlaces = {
     // After a pose of the old format, which holds a matrix.
     Place{"CObservation2DRangeScan", "CMatrixD", "xx.114", 4, Meaning::count},
     Place{"", "CPosePDFParticles", "4", 24, Meaning::count},
+    Place{"", "CPosePDFSOG", "4", 24, Meaning::count},
+    Place{"", "CPose3DPDFParticles", "4", 24, Meaning::count},
+    Place{"", "CPose3DPDFSOG", "4", 24, Meaning::count},
     // Particles of a movement by the model of Thrun: 300 is usual, a million is too many.
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{7}4", 1024, Meaning::made, 4},
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{6}4", 1024, Meaning::made, 0, 3},
@@ -96,11 +104,15 @@ std::string without_namespace(const std::string& name) {
     return colons == std::string::npos ? name : name.substr(colons + 2);
 }
 
-/// A place's reads are a regular expression of tokens, in which x stands for any four bytes and v
-/// for a vector: a count and its elements, or 0 and none.
-std::regex expression(const std::string& reads) {
-    const std::string any_four = std::regex_replace(reads, std::regex("x"), "[04]");
-    return std::regex(std::regex_replace(any_four, std::regex("v"), "(?:0|4.)"));
+/// A place's reads are a regular expression of tokens, in which stand
+///     x  for any four bytes,
+///     v  for a vector: a count and its elements, or 0 and none,
+///     l  for a layer of an image: a name, rows, columns, and the pixels where there are any.
+std::regex expression(std::string reads) {
+    for (const auto& [letter, meaning] :
+         {std::pair("l", "(?:v(?:0x|40|44.))"), std::pair("v", "(?:0|4.)"), std::pair("x", "[04]")})
+        reads = std::regex_replace(reads, std::regex(letter), meaning);
+    return std::regex(reads);
 }
 
 bool matches(const std::string& reads, std::size_t place) {
@@ -177,7 +189,7 @@ std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::ui
     } else if (count == 3) {
         name_length_ = old_length_;
     }
-    constexpr std::size_t kMostReads = 64;  // no count of ours stands further from its header
+    constexpr std::size_t kMostReads = 1100;  // 255 layers; no count of ours stands further on
     if (last_.empty() || reads_.size() > kMostReads) return {};
     reads_ += token(bytes, count);
     if (count != 2 && count != 4) return {};
