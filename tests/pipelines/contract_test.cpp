@@ -12,7 +12,14 @@ namespace {
 class StageContract : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(StageContract, IsKept) {
-    static const ContractInputs inputs = calibration_samples();
+    static const ContractInputs inputs = [] {
+        ContractInputs samples = calibration_samples();
+        samples.params["source.simulator"] = {
+            {"scenes",
+             Value(std::vector<std::string>{PETAL_SOURCE_DIR "/tests/data/small_scene.json"})},
+            {"duration", Value(0.05)}};
+        return samples;
+    }();
     const StageSpec* stage = built_plugins().registry.find(GetParam());
     ASSERT_NE(stage, nullptr);
     for (const Violation& violation : contract_violations(*stage, inputs))
