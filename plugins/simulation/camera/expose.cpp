@@ -48,7 +48,8 @@ class Sensor {
     unsigned char level(double radiance, NormalPairs& random) const {
         const double light = std::max(0.0, gain_ * radiance);
         const double read = light + std::sqrt(light + read_variance_) * random.next();
-        return static_cast<unsigned char>(std::clamp(read * levels_, 0.0, kFullScale) + 0.5);
+        return static_cast<unsigned char>(
+            std::floor(std::clamp(read * levels_, 0.0, kFullScale) + 0.5));
     }
 
    private:

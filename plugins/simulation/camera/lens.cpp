@@ -54,7 +54,7 @@ Blur::Blur(double sigma_px)
         };
         const double whole = before(reach_ + 0.5) - before(-reach_ - 0.5);
         for (int offset = -reach_; offset <= reach_; ++offset)
-            shares_[static_cast<std::size_t>(offset + reach_)][static_cast<std::size_t>(cell)] =
+            shares_.begin()[offset + reach_][static_cast<std::size_t>(cell)] =
                 static_cast<float>((before(offset + 0.5) - before(offset - 0.5)) / whole);
     }
 }

@@ -48,7 +48,7 @@ class Blur {
 
    private:
     const std::array<float, Pixel::kCells>& share(int offset) const {
-        return shares_[static_cast<std::size_t>(offset + reach_)];
+        return shares_.begin()[offset + reach_];
     }
 
     int reach_;

@@ -58,7 +58,8 @@ class Places {
     }
     std::size_t cell(unsigned k) const {
         const Eigen::Array2i place = scrambled(k) * Pixel::kCells / static_cast<int>(kPlaces);
-        return static_cast<std::size_t>(Pixel::kCells * place.y() + place.x());
+        return static_cast<std::size_t>(place.y()) * Pixel::kCells +
+               static_cast<std::size_t>(place.x());
     }
 
    private:
@@ -73,7 +74,7 @@ class Places {
 /// What was seen in one pixel.
 class Picture::Tally {
    public:
-    void add(const Sample& sample) {
+    void add(const Sight& sample) {
         if (count_ == 0) first_ = sample;
         edge_ = edge_ || sample.surface != first_.surface || sample.lit != first_.lit;
         low_ = low_.cwiseMin(sample.radiance);
@@ -87,7 +88,7 @@ class Picture::Tally {
     Eigen::Vector3f mean() const { return sum_ / static_cast<float>(count_); }
 
    private:
-    Sample first_;
+    Sight first_;
     bool edge_ = false;
     Eigen::Vector3f low_ = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
     Eigen::Vector3f high_ = Eigen::Vector3f::Constant(std::numeric_limits<float>::lowest());
@@ -128,7 +129,7 @@ Pixel Picture::pixel(int column, int row) const {
         return result;
     }
     const Places places(column, row);
-    std::array<Sample, kPlaces> samples;
+    std::array<Sight, kPlaces> samples;
     Tally inside;
     for (unsigned k = 0; k < kFirst; ++k) {
         samples[k] = look(column, row, places.at(k));
@@ -146,9 +147,9 @@ Pixel Picture::pixel(int column, int row) const {
     result.mean = inside.mean();
     result.divided = true;
     result.cells.fill(-result.mean);
-    constexpr float kInCell = kPlaces / (Pixel::kCells * Pixel::kCells);
+    constexpr unsigned kInCell = kPlaces / (Pixel::kCells * Pixel::kCells);
     for (unsigned k = 0; k < kPlaces; ++k)
-        result.cells[places.cell(k)] += samples[k].radiance / kInCell;
+        result.cells[places.cell(k)] += samples[k].radiance / static_cast<float>(kInCell);
     return result;
 }
 
@@ -158,7 +159,7 @@ Picture::Tally Picture::at_corners(int column, int row) const {
     return tally;
 }
 
-Sample Picture::look(int column, int row, const Eigen::Array2d& place) const {
+Sight Picture::look(int column, int row, const Eigen::Array2d& place) const {
     const Eigen::Vector3d direction = rays_.inside(column, row, place.x(), place.y());
     return detail_.at<unsigned char>(row, column) == kEdge
                ? shading_.seen(direction)

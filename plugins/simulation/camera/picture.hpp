@@ -46,12 +46,12 @@ class Picture {
         return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
     }
     Tally at_corners(int column, int row) const;
-    Sample look(int column, int row, const Eigen::Array2d& place) const;
+    Sight look(int column, int row, const Eigen::Array2d& place) const;
 
     const PixelRays& rays_;
     const Shading& shading_;
     std::size_t stride_;
-    std::vector<Sample> corners_;
+    std::vector<Sight> corners_;
     cv::Mat detail_;
 };
 

@@ -17,21 +17,21 @@ Shading::Shading(const World& world, const Light& light, const Eigen::Isometry3d
     light_.to_lamp.normalize();
 }
 
-Sample Shading::seen(const Eigen::Vector3d& direction) const {
-    const Ray sight = ray(direction);
-    const Hit hit = world_.cast(sight, kHorizon);
+Sight Shading::seen(const Eigen::Vector3d& direction) const {
+    const Ray along = ray(direction);
+    const Hit hit = world_.cast(along, kHorizon);
     if (hit.surface == nullptr) return {light_.sky.reverse(), nullptr, false};
-    const Ray to_lamp{sight.origin + hit.range * sight.direction, light_.to_lamp};
+    const Ray to_lamp{along.origin + hit.range * along.direction, light_.to_lamp};
     return shaded(hit, hit.normal.dot(light_.to_lamp) > 0.0 && !world_.blocked(to_lamp, kHorizon));
 }
 
-Sample Shading::seen(const Eigen::Vector3d& direction, const Sample& near) const {
+Sight Shading::seen(const Eigen::Vector3d& direction, const Sight& near) const {
     Hit hit;
     if (near.surface == nullptr || !near.surface->cast(ray(direction), hit)) return seen(direction);
     return shaded(hit, near.lit);
 }
 
-Sample Shading::shaded(const Hit& hit, bool lit) const {
+Sight Shading::shaded(const Hit& hit, bool lit) const {
     float light = light_.ambient;
     if (lit)
         light += light_.lamp * static_cast<float>(std::max(0.0, hit.normal.dot(light_.to_lamp)));

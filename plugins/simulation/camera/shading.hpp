@@ -11,7 +11,7 @@
 namespace petal::simulation {
 
 /// What a camera sees along one ray.
-struct Sample {
+struct Sight {
     Eigen::Vector3f radiance = Eigen::Vector3f::Zero();  ///< blue, green, red; linear
     const Surface* surface = nullptr;                    ///< null: the sky, or nothing
     bool lit = false;                                    ///< the lamp is seen from there
@@ -24,9 +24,9 @@ class Shading {
     Shading(const World& world, const Light& light, const Eigen::Isometry3d& T_world_camera);
 
     /// Along a direction in the camera's frame, of any length but zero.
-    Sample seen(const Eigen::Vector3d& direction) const;
+    Sight seen(const Eigen::Vector3d& direction) const;
     /// The same close to `near`, where no other surface and no edge of a shadow is: much cheaper.
-    Sample seen(const Eigen::Vector3d& direction, const Sample& near) const;
+    Sight seen(const Eigen::Vector3d& direction, const Sight& near) const;
     /// Radiance of a white surface that faces the lamp: the unit for what is a contrast.
     float white() const { return light_.ambient + light_.lamp; }
 
@@ -34,7 +34,7 @@ class Shading {
     Ray ray(const Eigen::Vector3d& direction) const {
         return {T_world_camera_.translation(), (T_world_camera_.linear() * direction).normalized()};
     }
-    Sample shaded(const Hit& hit, bool lit) const;
+    Sight shaded(const Hit& hit, bool lit) const;
 
     const World& world_;
     Light light_;

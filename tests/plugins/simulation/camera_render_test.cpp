@@ -79,16 +79,16 @@ EdgeMisses misses_of(const cv::Mat& image, const CameraDevice& camera) {
     return misses;
 }
 
-struct Scene {
+struct Contrast {
     CameraDevice camera;
     float board, wall;
 };
 
-class RenderedEdges : public ::testing::TestWithParam<Scene> {};
+class RenderedEdges : public ::testing::TestWithParam<Contrast> {};
 INSTANTIATE_TEST_SUITE_P(
     Camera, RenderedEdges,
-    ::testing::Values(Scene{bent_pinhole(), 0.85F, 0.1F}, Scene{bent_pinhole(), 0.15F, 0.7F},
-                      Scene{fisheye(), 0.85F, 0.1F}, Scene{fisheye(), 0.15F, 0.7F}),
+    ::testing::Values(Contrast{bent_pinhole(), 0.85F, 0.1F}, Contrast{bent_pinhole(), 0.15F, 0.7F},
+                      Contrast{fisheye(), 0.85F, 0.1F}, Contrast{fisheye(), 0.15F, 0.7F}),
     [](const auto& test) {
         return test.param.camera.label +
                (test.param.board > test.param.wall ? "_dark_in_bright" : "_bright_in_dark");
