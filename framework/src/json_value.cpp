@@ -87,6 +87,10 @@ void JsonValue::fail(const std::string& problem) const {
                 (path_.empty() ? "" : path_ + " ") + problem);
 }
 
+bool JsonValue::is_object() const {
+    return node_->is(NodeKind::object);
+}
+
 void JsonValue::only(const std::vector<std::string>& keys) const {
     if (!node_->is(NodeKind::object))
         fail("is " + describe(*node_) + "; expected an object, {...}");

@@ -58,6 +58,8 @@ TEST_F(JsonValueTest, ReadsEachKind) {
     EXPECT_EQ(v.at("l").list()[1].at("x").number(), 2.0);
     EXPECT_EQ(v.at("l").list()[1].at("x").path(), "l[1].x");
     EXPECT_FALSE(v.find("absent"));
+    EXPECT_TRUE(v.is_object());
+    EXPECT_FALSE(v.at("l").is_object());
     EXPECT_EQ(v.at("l").list()[0].keys(), std::vector<std::string>{"x"});
     EXPECT_EQ(value(R"({"b": 1, "a": {"c": 2}})").keys(), (std::vector<std::string>{"b", "a"}));
 }

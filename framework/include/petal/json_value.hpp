@@ -38,6 +38,7 @@ class JsonValue {
     [[noreturn]] void fail(const std::string& problem) const;
 
     // --- objects
+    bool is_object() const;
     /// An object with no other keys than these ("$schema" and "about" are always allowed); an
     /// unknown one is told with the nearest of them.
     void only(const std::vector<std::string>& keys) const;
