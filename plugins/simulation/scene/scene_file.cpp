@@ -51,6 +51,20 @@ class SceneChain {
     std::vector<fs::path> files_;
 };
 
+/// The targets that look-alikes among the objects show. They have been read: the files are there.
+void find_look_alikes(const JsonValue& node, std::vector<fs::path>& files) {
+    if (node.is_list())
+        for (const JsonValue& element : node.list()) find_look_alikes(element, files);
+    if (!node.is_object()) return;
+    for (const std::string& key : node.keys()) {
+        const JsonValue value = node.at(key);
+        if (value.is_text() && (key == "look_alike" || key == "target"))
+            files.push_back(find_target_file(value.text()));
+        else
+            find_look_alikes(value, files);
+    }
+}
+
 }  // namespace
 
 struct SceneFile::Content {
@@ -112,6 +126,9 @@ SceneFile SceneFile::load(const fs::path& name_or_path) {
     content.read_captures(scene);
     for (const CapturePlan& capture : content.captures)
         for (const fs::path& target : capture.target_files()) content.add_file(target);
+    std::vector<fs::path> look_alikes;
+    find_look_alikes(scene, look_alikes);
+    for (const fs::path& target : look_alikes) content.add_file(target);
     return result;
 }
 
