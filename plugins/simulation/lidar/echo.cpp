@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kWidthInSigmas = 2.354820045;  // of a Gaussian at half its height
 constexpr double kSettled = 1e-5;               // m
-constexpr int kMostSteps = 500;
+constexpr double kSamePeak = 1e-3;              // m
+constexpr double kNothing = 25.0;               // e^-25 of a pulse
+constexpr int kMostSteps = 200;
 
 }  // namespace
 
@@ -23,47 +25,65 @@ Receiver::Receiver(const LidarProfile& profile)
       returned_(profile.returned) {}
 
 /// Mean shift: in one dimension and with a Gaussian it climbs to the next peak without passing it.
+/// Where the waveform bends as at a peak, Newton's step is the longer one and is taken as long as
+/// it is short beside the pulse.
 Echo Receiver::climb(const std::vector<Patch>& patches, double from) const {
+    const double short_step = 0.2 / std::sqrt(2.0 * sharpness_);
     Echo echo;
     echo.range = from;
     for (int step = 0; step < kMostSteps; ++step) {
-        double moment = 0.0;
+        double moment = 0.0, bend = 0.0;
         echo.energy = 0.0;
         echo.share = 0.0;
         for (const Patch& patch : patches) {
             const double away = patch.range - echo.range;
-            const double height = std::exp(-sharpness_ * away * away);
+            const double exponent = sharpness_ * away * away;
+            if (exponent > kNothing) continue;
+            const double height = std::exp(-exponent);
             moment += height * patch.energy * away;
+            bend += height * patch.energy * (1.0 - 2.0 * exponent);
             echo.energy += height * patch.energy;
             echo.share += height * patch.share;
         }
-        const double shift = moment / echo.energy;
+        const bool near_peak = bend > 0.0 && std::abs(moment) < short_step * bend;
+        const double shift = moment / (near_peak ? bend : echo.energy);
         echo.range += shift;
         if (std::abs(shift) < kSettled) break;
     }
     return echo;
 }
 
-std::vector<Echo> Receiver::echoes(const std::vector<Patch>& patches) const {
-    std::vector<Echo> all;
-    double begun = 0.0;  // the waveform between here and the last peak leads up to that peak
+template <class Visit>
+void Receiver::visit(const std::vector<Patch>& patches, Visit&& visit) const {
+    // The waveform between where a climb began and its peak leads up to that peak.
+    double begun = 0.0;
+    double peak = -1.0;
     for (const Patch& patch : patches) {
-        if (!all.empty() && patch.range >= begun && patch.range <= all.back().range) continue;
+        if (patch.range >= begun && patch.range <= peak) continue;
         const Echo echo = climb(patches, patch.range);
         begun = patch.range;
-        const double apart = all.empty() ? 1.0 : std::abs(echo.range - all.back().range);
-        if (apart > 100.0 * kSettled) all.push_back(echo);
+        if (std::abs(echo.range - peak) < kSamePeak) continue;
+        peak = echo.range;
+        if (visit(echo)) return;
     }
+}
+
+std::vector<Echo> Receiver::echoes(const std::vector<Patch>& patches) const {
+    std::vector<Echo> all;
+    visit(patches, [&](const Echo& echo) {
+        all.push_back(echo);
+        return false;
+    });
     return all;
 }
 
 std::optional<Echo> Receiver::told(const std::vector<Patch>& patches) const {
     std::optional<Echo> best;
-    for (const Echo& echo : echoes(patches)) {
-        if (echo.energy < limit_) continue;
-        if (returned_ == LidarProfile::Return::first) return echo;
-        if (!best || echo.energy > best->energy) best = echo;
-    }
+    visit(patches, [&](const Echo& echo) {
+        if (echo.energy < limit_ || (best && echo.energy <= best->energy)) return false;
+        best = echo;
+        return returned_ == LidarProfile::Return::first;
+    });
     return best;
 }
 

@@ -48,6 +48,9 @@ class Receiver {
 
    private:
     Echo climb(const std::vector<Patch>& patches, double from) const;
+    /// The peaks, nearest first, until `visit` answers true.
+    template <class Visit>
+    void visit(const std::vector<Patch>& patches, Visit&& visit) const;
 
     double sharpness_;  ///< 1 / (2 sigma^2), 1/m^2
     double limit_;

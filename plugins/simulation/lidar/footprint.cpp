@@ -9,8 +9,9 @@
 namespace petal::simulation {
 namespace {
 
-/// Parts of a surface at ranges nearer than this are one patch: a small part of any pulse's width.
-constexpr double kPatch = 0.02;      // m
+/// Parts of a surface at ranges nearer than this are one patch: a fifth of the sigma of a 4 ns
+/// pulse.
+constexpr double kPatch = 0.05;      // m
 constexpr double kSamePlane = 1e-6;  // m, and of normals (1)
 
 }  // namespace
