@@ -29,6 +29,7 @@ Receiver::Receiver(const LidarProfile& profile)
 /// it is short beside the pulse.
 Echo Receiver::climb(const std::vector<Patch>& patches, double from) const {
     const double short_step = 0.2 / std::sqrt(2.0 * sharpness_);
+    const double reach = std::sqrt(kNothing / sharpness_);
     Echo echo;
     echo.range = from;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -37,8 +38,9 @@ Echo Receiver::climb(const std::vector<Patch>& patches, double from) const {
         echo.share = 0.0;
         for (const Patch& patch : patches) {
             const double away = patch.range - echo.range;
+            if (away < -reach) continue;
+            if (away > reach) break;
             const double exponent = sharpness_ * away * away;
-            if (exponent > kNothing) continue;
             const double height = std::exp(-exponent);
             moment += height * patch.energy * away;
             bend += height * patch.energy * (1.0 - 2.0 * exponent);
@@ -79,6 +81,9 @@ std::vector<Echo> Receiver::echoes(const std::vector<Patch>& patches) const {
 
 std::optional<Echo> Receiver::told(const std::vector<Patch>& patches) const {
     std::optional<Echo> best;
+    double all = 0.0;
+    for (const Patch& patch : patches) all += patch.energy;
+    if (all < limit_) return best;  // far ground at a grazing angle: many patches, and no echo
     visit(patches, [&](const Echo& echo) {
         if (echo.energy < limit_ || (best && echo.energy <= best->energy)) return false;
         best = echo;
