@@ -298,6 +298,16 @@ TEST_F(ClaimsOfFiles, ACountAfterAHeaderFromBefore2008IsTold) {
     EXPECT_THAT(reading(bytes), HasSubstr("it claims"));
 }
 
+// The end flag of an object, and a time that reads like a name.
+TEST_F(RotatingScanClaims, ATimeThatLooksLikeAHeader) {
+    check_.begin_object();
+    header("mrpt::obs::CObservationRotatingScan");
+    header("mrpt::poses::CPose3D");
+    expect_sound(std::vector<std::string>(7, std::string(8, '\0')));
+    expect_sound({"\x88", "::CO____", byte_, most_});
+    EXPECT_THAT(read(most_), HasSubstr("it claims"));
+}
+
 TEST_F(Claims, WhatIsNotKnownIsNotRefused) {
     header("CObservationOfTomorrow");
     expect_sound({huge_, huge_, huge_});

@@ -3,9 +3,10 @@
 
 #include "petal/rawlog/claim_check.hpp"
 
+#include <mrpt/rtti/CObject.h>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <regex>
@@ -158,9 +159,8 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
     std::string name(static_cast<const char*>(bytes), count);
     name.resize(std::min(name.size(), name.find('\0')));
     name = without_namespace(name);
-    if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
-    for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
+    // An end flag (0x88) and a number of eight bytes may look like a header too.
+    if (mrpt::rtti::findRegisteredClass(name) == nullptr) return false;
     // MRPT reads a distribution there unless the method is odometry (0), and does not look whether
     // it got one.
     // ("41": the method, and the length of this name.)
