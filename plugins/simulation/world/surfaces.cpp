@@ -5,21 +5,12 @@
 
 #include <cmath>
 
+#include "petal/calibration/polygon.hpp"
+
 namespace petal::simulation {
 namespace {
 
 constexpr double kNearest = 1e-6;  // m: a ray that starts on a surface does not meet it
-
-bool inside(const Eigen::Vector2d& p, const PlanarSurface::Polygon& polygon) {
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Eigen::Vector2d& a = polygon[i];
-        const Eigen::Vector2d& b = polygon[j];
-        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-        if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) in = !in;
-    }
-    return in;
-}
 
 /// Whether a polygon is its own bounding box.
 bool is_box(const PlanarSurface::Polygon& polygon, const Eigen::AlignedBox2d& box) {
@@ -57,11 +48,11 @@ PlanarSurface::Shape PlanarSurface::rectangle(double width, double height) {
 
 bool PlanarSurface::covers(const Eigen::Vector2d& p) const {
     if (!outline_box_.contains(p)) return false;
-    if (!is_rectangle_ && !inside(p, shape_.outline)) return false;
+    if (!is_rectangle_ && !inside_polygon(shape_.outline, p)) return false;
     for (const Circle& hole : shape_.round_holes)
         if ((p - hole.centre).squaredNorm() < hole.radius * hole.radius) return false;
     for (const Polygon& hole : shape_.holes)
-        if (inside(p, hole)) return false;
+        if (inside_polygon(hole, p)) return false;
     return true;
 }
 

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 
 namespace petal::simulation {
 namespace {
 
-constexpr std::size_t kLeaf = 2;  // surfaces: fewer boxes than that do not pay
-/// Deep enough for 2^40 surfaces: the tree is split by halves.
-constexpr std::size_t kDepth = 64;
+constexpr std::size_t kLeaf = 2;    // surfaces: fewer boxes than that do not pay
+constexpr std::size_t kLeast = 16;  // of a node's surfaces at least this part goes to each child
+/// Deep enough for millions of surfaces, though every split were as uneven as it may be.
+constexpr std::size_t kDepth = 256;
 
 /// Where a ray enters a box; infinity where it misses it within `farthest`. A direction of zero
 /// gives infinities that compare as they should.
@@ -21,14 +22,51 @@ double entry(const Eigen::AlignedBox3d& box, const Ray& ray, const Eigen::Vector
     double in = 0.0;
     double out = farthest;
     for (int axis = 0; axis < 3; ++axis) {
-        double a = (box.min()(axis) - ray.origin(axis)) * inverse(axis);
-        double b = (box.max()(axis) - ray.origin(axis)) * inverse(axis);
-        if (a > b) std::swap(a, b);
-        // NaN (a ray inside a face of the box, along it) must not close the interval.
-        if (a > in) in = a;
-        if (b < out) out = b;
+        const double a = (box.min()(axis) - ray.origin(axis)) * inverse(axis);
+        const double b = (box.max()(axis) - ray.origin(axis)) * inverse(axis);
+        if (std::isnan(a + b)) continue;  // a ray in a face of the box, along it
+        in = std::max(in, std::min(a, b));
+        out = std::min(out, std::max(a, b));
     }
     return in <= out ? in : std::numeric_limits<double>::infinity();
+}
+
+double area(const Eigen::AlignedBox3d& box) {
+    const Eigen::Vector3d size = box.sizes();
+    return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
+using Surfaces = std::vector<const Surface*>::iterator;
+
+/// Stable: which of two equal ones comes first must not depend on the library.
+void sort_along(int axis, Surfaces begin, Surfaces end) {
+    std::stable_sort(begin, end, [axis](const Surface* a, const Surface* b) {
+        return a->bounds().center()(axis) < b->bounds().center()(axis);
+    });
+}
+
+/// Where surfaces in order are best parted: rays meet a box as often as its area is large, and then
+/// every surface in it is looked at. Sets `cost` and answers the number before the cut.
+std::size_t best_cut(Surfaces begin, Surfaces end, double& cost) {
+    const auto count = static_cast<std::size_t>(end - begin);
+    std::vector<double> behind(count);  // cost of all from here on
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = count; i-- > 1;) {
+        box.extend(begin[static_cast<std::ptrdiff_t>(i)]->bounds());
+        behind[i] = area(box) * static_cast<double>(count - i);
+    }
+    box.setEmpty();
+    const std::size_t least = std::max<std::size_t>(1, count / kLeast);
+    std::size_t cut = count / 2;
+    cost = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < count; ++i) {
+        box.extend(begin[static_cast<std::ptrdiff_t>(i) - 1]->bounds());
+        const double here = area(box) * static_cast<double>(i) + behind[i];
+        if (i < least || count - i < least || !(here < cost)) continue;
+        cost = here;
+        cut = i;
+    }
+    return cut;
 }
 
 }  // namespace
@@ -44,31 +82,34 @@ void World::build() {
 }
 
 void World::split(std::size_t node, std::size_t first, std::size_t count) {
-    Eigen::AlignedBox3d box, centres;
-    for (std::size_t i = first; i < first + count; ++i) {
-        box.extend(order_[i]->bounds());
-        centres.extend(order_[i]->bounds().center());
-    }
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = first; i < first + count; ++i) box.extend(order_[i]->bounds());
     nodes_[node].box = box;
     if (count <= kLeaf) {
         nodes_[node].first = first;
         nodes_[node].count = count;
         return;
     }
-    Eigen::Index axis = 0;
-    centres.sizes().maxCoeff(&axis);
     const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(first);
-    // Stable: which of two equal ones comes first must not depend on the library.
-    std::stable_sort(begin, begin + static_cast<std::ptrdiff_t>(count),
-                     [axis](const Surface* a, const Surface* b) {
-                         return a->bounds().center()(axis) < b->bounds().center()(axis);
-                     });
-    const std::size_t half = count / 2;
+    const auto end = begin + static_cast<std::ptrdiff_t>(count);
+    int best_axis = 0;
+    std::size_t cut = 0;
+    double least_cost = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        sort_along(axis, begin, end);
+        double cost = 0.0;
+        const std::size_t here = best_cut(begin, end, cost);
+        if (cut > 0 && !(cost < least_cost)) continue;
+        best_axis = axis;
+        cut = here;
+        least_cost = cost;
+    }
+    sort_along(best_axis, begin, end);
     const std::size_t children = nodes_.size();
     nodes_.resize(children + 2);
     nodes_[node].first = children;
-    split(children, first, half);
-    split(children + 1, first + half, count - half);
+    split(children, first, cut);
+    split(children + 1, first + cut, count - cut);
 }
 
 /// Visits the surfaces of all leaves that the ray meets before nearest.range, near boxes first,

@@ -66,6 +66,28 @@ TEST(WorldTest, AnEmptyWorldHasNothing) {
               nullptr);
 }
 
+TEST(WorldTest, ARayAlongAFaceOfABoxIsNotLost) {
+    // An upright sheet whose lower edge lies at the height of a level ray, seen from all sides.
+    for (const double sign : {1.0, -1.0}) {
+        World world;
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        pose.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+        pose.translation() = Eigen::Vector3d(2.0 * sign, -1.0, 1.0);
+        world.add(std::make_unique<PlanarSurface>(pose, PlanarSurface::rectangle(2.0, 1.0),
+                                                  plain_world_look(), Kind::background));
+        world.build();
+        for (const double zero : {0.0, -0.0}) {
+            Hit alone;
+            const Ray ray{Eigen::Vector3d::Zero(), Eigen::Vector3d(sign, zero, zero)};
+            PlanarSurface(pose, PlanarSurface::rectangle(2.0, 1.0), plain_world_look(),
+                          Kind::background)
+                .cast(ray, alone);
+            EXPECT_EQ(world.cast(ray, 10.0).surface != nullptr, alone.surface != nullptr);
+            EXPECT_NE(alone.surface, nullptr);
+        }
+    }
+}
+
 TEST(WorldTest, TheTreeFindsWhatTryingEverySurfaceFinds) {
     Rng rng(3);
     World world;
