@@ -35,9 +35,8 @@ SharedTexture tiled(const Look& tile, const Look& joint, const TileTexture::Layo
     return std::make_shared<TileTexture>(tile, joint, layout, seed);
 }
 
-SharedTexture windows(SharedTexture wall, std::uint64_t seed) {
-    return std::make_shared<WindowTexture>(std::move(wall), grey(0.75F, 0.6F),
-                                           look(0.03F, 0.04F, 0.05F, 0.03F),
+SharedTexture windows(SharedTexture wall, const Look& glass, std::uint64_t seed) {
+    return std::make_shared<WindowTexture>(std::move(wall), grey(0.75F, 0.6F), glass,
                                            WindowTexture::Layout{}, seed);
 }
 
@@ -77,8 +76,9 @@ std::map<std::string, SharedTexture> make_materials() {
         tiled(grey(0.1F, 0.15F), grey(0.7F, 0.6F), {0.112, 0.112, 0.012, 0.0, 0.3}, 13);
     all["wood_floor"] = tiled(look(0.5F, 0.34F, 0.2F, 0.45F), look(0.15F, 0.1F, 0.06F, 0.2F),
                               {1.2, 0.14, 0.003, 0.37, 0.2}, 14);
-    all["brick_windows"] = windows(all["brick"], 15);
-    all["white_windows"] = windows(all["white_wall"], 16);
+    // By day glass mirrors the sky; from within a lit room it is dark outside.
+    all["brick_windows"] = windows(all["brick"], look(0.22F, 0.26F, 0.32F, 0.03F), 15);
+    all["white_windows"] = windows(all["white_wall"], look(0.03F, 0.04F, 0.05F, 0.03F), 16);
     return all;
 }
 
