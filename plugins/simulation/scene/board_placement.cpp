@@ -35,7 +35,7 @@ double lowest_of(const Target& target, const Eigen::Isometry3d& T_world_board) {
 /// One number for all three, or a list of three; each from 0 to `most`.
 Eigen::Vector3d read_spread(const JsonValue& node, double most, const char* unit) {
     if (!node.is_list()) return Eigen::Vector3d::Constant(node.number(0.0, most, unit));
-    const Eigen::Vector3d spread = node.vector3();
+    Eigen::Vector3d spread = node.vector3();
     if (spread.minCoeff() < 0.0 || spread.maxCoeff() > most)
         node.fail("must be from 0 to " + std::to_string(static_cast<int>(most)) + " " + unit);
     return spread;

@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "petal/calibration/polygon.hpp"
+#include "simulation/scene/materials.hpp"
 #include "simulation/world/marker_texture.hpp"
 #include "simulation/world/overlay_texture.hpp"
 #include "simulation/world/surfaces.hpp"
 
 namespace petal::simulation {
 namespace {
-
-using SharedTexture = std::shared_ptr<const Texture>;
 
 Look light_look(const Target& target) {
     return {target.surface.colour.cast<float>(), static_cast<float>(target.surface.reflectivity)};

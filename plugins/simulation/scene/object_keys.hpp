@@ -21,7 +21,7 @@ inline double read_length(const JsonValue& node, const std::string& key, double 
 
 /// [x, y] on the floor.
 inline Eigen::Vector2d read_place(const JsonValue& node) {
-    const Eigen::Vector2d place = node.at("place").vector2();
+    Eigen::Vector2d place = node.at("place").vector2();
     if (place.cwiseAbs().maxCoeff() > kFarthest) node.at("place").fail("must lie within 500 m");
     return place;
 }

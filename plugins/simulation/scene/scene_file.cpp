@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 class SceneChain {
    public:
     JsonValue read(const fs::path& file) {
-        const JsonValue own = JsonValue::read(file, "scene");
+        JsonValue own = JsonValue::read(file, "scene");
         own.only({"petal_scene", "name", "based_on", "duration", "images", "lidar", "cameras",
                   "rig", "floor", "light", "motion", "boards", "captures", "objects"});
         files_.push_back(file);

@@ -89,7 +89,7 @@ SharedTexture read_tiles(const JsonValue& node) {
 Eigen::Vector2d size_of(const JsonValue& node, const char* key, const Eigen::Vector2d& otherwise) {
     const auto value = node.find(key);
     if (!value) return otherwise;
-    const Eigen::Vector2d size = value->vector2();
+    Eigen::Vector2d size = value->vector2();
     if (!(size.minCoeff() > 0.0 && size.maxCoeff() <= kWidest))
         value->fail("must be [across, up and down] in m, above 0 and at most 100");
     return size;
