@@ -69,17 +69,14 @@ Standing read_standing(const JsonValue& node, std::size_t boards) {
         node.fail("needs either distance (m from the LiDAR) or gap (m behind the boards)");
     if (const auto distance = node.find("distance"))
         standing.distance = read_interval(*distance, 0.1, kFarthest, "m");
-    if (const auto gap = node.find("gap")) {
-        standing.gap = read_interval(*gap, 0.0, kFarthest, "m");
-        if (boards == 0) gap->fail("is counted from the boards, but the scene has none");
-    }
+    if (const auto gap = node.find("gap")) standing.gap = read_interval(*gap, 0.0, kFarthest, "m");
     if (const auto behind = node.find("behind")) {
         if (!standing.gap) behind->fail("goes with gap, not with distance");
-        if (behind->is_number())
+        if (behind->is_text())
+            behind->choice({"boards"});
+        else
             standing.behind =
                 static_cast<std::size_t>(behind->integer(0, static_cast<int>(boards) - 1));
-        else if (behind->choice({"boards"}) != "boards")
-            behind->fail("must be \"boards\" or the number of one");
     }
     return standing;
 }
