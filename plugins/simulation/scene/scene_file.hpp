@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,7 @@ struct Scene {
 };
 
 /// A scene file (datasets/scenes): what stands where, and how it may vary from seed to seed.
-/// The file holds one capture or several; docs/simulator.md tells its keys.
+/// The file holds one capture or several; docs/simulator_scenes.md tells its keys.
 class SceneFile {
    public:
     /// `name_or_path`: a scene that petal ships, or a JSON file. \throws Error naming file, key and
