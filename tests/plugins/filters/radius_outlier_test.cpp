@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "filters/radius_outlier.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "plugins/filters/cloud_samples.hpp"
+
+namespace petal {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::kept_by;
+using testing::Points;
+using testing::StageHarness;
+
+StageHarness ball(double radius, int min_neighbours) {
+    auto stage = StageHarness::of<RadiusOutlier>("filter.radius_outlier");
+    stage.set("radius", radius).set("min_neighbours", min_neighbours);
+    return stage;
+}
+
+TEST(RadiusOutlierStage, TheRadiusItselfIsInside) {
+    // On both sides of the origin, where cells have their borders. 0.25 and 0.5 are exact.
+    const Points points = {{-0.25F, 0, 0}, {0.25F, 0, 0}, {0.75F, 0, 0}, {1.2501F, 0, 0}};
+    auto one = ball(0.5, 1);
+    EXPECT_THAT(kept_by(one, points), ElementsAre(0, 1, 2));
+    auto two = ball(0.5, 2);
+    EXPECT_THAT(kept_by(two, points), ElementsAre(1));
+    auto three = ball(0.5, 3);
+    EXPECT_TRUE(kept_by(three, points).empty());
+    ASSERT_EQ(three.notes().size(), 1U);
+    EXPECT_EQ(three.notes()[0].nearest_miss, "none of 4 points stays");
+}
+
+TEST(RadiusOutlierStage, APointIsNotItsOwnNeighbourButItsDoubleIs) {
+    auto stage = ball(0.1, 1);
+    EXPECT_THAT(kept_by(stage, {{1, 1, 1}, {5, 5, 5}, {1, 1, 1}}), ElementsAre(0, 2));
+}
+
+TEST(RadiusOutlierStage, PointsFartherOffThanCellsCanBeCounted) {
+    auto stage = ball(0.001, 1);
+    EXPECT_THAT(kept_by(stage, {{1e20F, 0, 0}, {0, 1e20F, 0}, {1e20F, 0, 0}, {-1e20F, 0, 0}}),
+                ElementsAre(0, 2));
+}
+
+/// Dense and sparse parts, on all sides of the origin.
+Points clumps() {
+    std::mt19937_64 engine(7);
+    Points points;
+    for (int clump = 0; clump < 30; ++clump) {
+        const float size = clump % 3 == 0 ? 0.05F : 1.0F;
+        const float x = testing::draw(engine, -2, 2), y = testing::draw(engine, -2, 2);
+        for (int i = 0; i < 60; ++i)
+            points.push_back({x + testing::draw(engine, -size, size),
+                              y + testing::draw(engine, -size, size),
+                              testing::draw(engine, -size, size)});
+    }
+    return points;
+}
+
+TEST(RadiusOutlierStage, TheSameAsCountingAllPairs) {
+    const Points points = clumps();
+    for (const auto& [radius, enough] :
+         {std::pair(0.1, 1), std::pair(0.2, 6), std::pair(0.6, 40)}) {
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            int count = -1;  // itself
+            for (const auto& other : points)
+                if (std::hypot(double{points[i][0]} - double{other[0]},
+                               double{points[i][1]} - double{other[1]},
+                               double{points[i][2]} - double{other[2]}) <= radius)
+                    ++count;
+            if (count >= enough) expected.push_back(i);
+        }
+        auto stage = ball(radius, enough);
+        EXPECT_EQ(kept_by(stage, points), expected) << radius;
+        EXPECT_GT(expected.size(), 0U);
+        EXPECT_LT(expected.size(), points.size());
+    }
+}
+
+TEST(RadiusOutlierStage, DoesWhatAllRemoversDo) {
+    testing::expect_good_remover([] { return ball(0.2, 6); }, clumps());
+}
+
+}  // namespace
+}  // namespace petal
