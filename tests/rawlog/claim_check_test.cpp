@@ -193,10 +193,21 @@ TEST_F(ClaimsOfFiles, AMovementOfAMillionParticlesIsTold) {
     EXPECT_THAT(reading(bytes), HasSubstr("which no single object has"));
 }
 
+// A map, by the name that it had once; it is told before its parts are made.
+TEST_F(ClaimsOfFiles, AMapOfBillionsOfFramesIsNoPartOfARawlog) {
+    const std::string name = "CSensFrameProbSequence";
+    const std::string header = static_cast<char>(0x80U + name.size()) + name + '\0';
+    EXPECT_THAT(reading(header + number(0x30020000)),
+                AllOf(HasSubstr("CSimpleMap"), HasSubstr("neither observation, action nor")));
+}
+
 /// Reads as MRPT makes them, of objects that it writes no more.
 class Claims : public ::testing::Test {
    protected:
-    void SetUp() override { check_.begin_object(); }
+    void begin(const std::string& observation) {
+        check_.begin_object();
+        header("mrpt::obs::" + observation);
+    }
     std::string read(const std::string& bytes) {
         return check_.after_read(bytes.data(), bytes.size(), 1000);
     }
@@ -216,8 +227,7 @@ class Claims : public ::testing::Test {
 class RotatingScanClaims : public Claims {
    protected:
     void SetUp() override {
-        Claims::SetUp();
-        header("mrpt::obs::CObservationRotatingScan");
+        begin("CObservationRotatingScan");
         header("mrpt::poses::CPose3D");
         expect_sound(std::vector<std::string>(7, std::string(8, '\0')));
         expect_sound({byte_, std::string(8, '\0'), byte_});
@@ -242,10 +252,23 @@ TEST_F(RotatingScanClaims, TheNameOfAnotherLayer) {
     EXPECT_THAT(read(huge_), HasSubstr("it claims"));
 }
 
+TEST_F(Claims, RowsOfNoColumns) {
+    begin("CObservation3DRangeScan");
+    header("mrpt::poses::CPose3D");
+    expect_sound(std::vector<std::string>(7, std::string(8, '\0')));
+    expect_sound({byte_, byte_, byte_, number(0), huge_});
+    EXPECT_THAT(read(number(0)), HasSubstr("it claims"));
+}
+
+TEST_F(Claims, ReadingsOfGasSensors) {
+    begin("CObservationGasSensors");
+    EXPECT_THAT(read(huge_), HasSubstr("it claims"));
+}
+
 TEST_F(Claims, DistributionsOfBillionsOfParts) {
     for (const char* name :
          {"CPosePDFParticles", "CPosePDFSOG", "CPose3DPDFParticles", "CPose3DPDFSOG"}) {
-        check_.begin_object();
+        begin("CActionRobotMovement2D");
         header(std::string("mrpt::poses::") + name);
         EXPECT_THAT(read(huge_), HasSubstr("it claims")) << name;
     }
@@ -256,7 +279,7 @@ TEST_F(Claims, TheColoursOfAPointsMapBeforeVersion8) {
     const std::string three = number(3);
     const std::string floats(12, '\x3F');
     for (const std::uint32_t reds : {0U, 3U}) {
-        check_.begin_object();
+        begin("CObservationPointCloud");
         header("mrpt::maps::CColouredPointsMap", 7);
         expect_sound({three, floats, floats, floats, huge_});
         expect_sound(std::vector<std::string>(5, byte_));
@@ -300,8 +323,7 @@ TEST_F(ClaimsOfFiles, ACountAfterAHeaderFromBefore2008IsTold) {
 
 // The end flag of an object, and a time that reads like a name.
 TEST_F(RotatingScanClaims, ATimeThatLooksLikeAHeader) {
-    check_.begin_object();
-    header("mrpt::obs::CObservationRotatingScan");
+    begin("CObservationRotatingScan");
     header("mrpt::poses::CPose3D");
     expect_sound(std::vector<std::string>(7, std::string(8, '\0')));
     expect_sound({"\x88", "::CO____", byte_, most_});
@@ -309,6 +331,7 @@ TEST_F(RotatingScanClaims, ATimeThatLooksLikeAHeader) {
 }
 
 TEST_F(Claims, WhatIsNotKnownIsNotRefused) {
+    check_.begin_object();
     header("CObservationOfTomorrow");
     expect_sound({huge_, huge_, huge_});
 }

@@ -3,14 +3,14 @@
 
 #include "petal/rawlog/claim_check.hpp"
 
-#include <mrpt/rtti/CObject.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
 #include <regex>
 #include <utility>
+
+#include "rawlog_class.hpp"
 
 namespace petal {
 namespace {
@@ -52,12 +52,12 @@ constexpr std::array kPlaces = {
     Place{"CObservation2DRangeScan", "CPose3D", "8+14", 4, Meaning::count},
     Place{"CObservation2DRangeScan", "CPose3D", "8+1(0|4..)x8x4", 1, Meaning::count},  // label
     Place{"CObservation3DRangeScan", "CPose3D", "8+114", 12, Meaning::count},
-    Place{"CObservation3DRangeScan", "CPose3D", "8+11(x|x.....)?1xx4", 2, Meaning::area},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+11(x|x.....)?1xxx", 2, Meaning::area},
     // After the second pose: label and names of external files, labels of pixels, other layers.
     Place{"CObservation3DRangeScan", "CPose3D", "8+1x8(v1){0,2}4", 1, Meaning::count},
-    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v11111x4", 1, Meaning::area},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v11111xx", 1, Meaning::area},
     Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v1111l*4", 1, Meaning::count},
-    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v1111l*vx4", 2, Meaning::area},
+    Place{"CObservation3DRangeScan", "CPose3D", "8+1x8v1v1v1111l*vxx", 2, Meaning::area},
     Place{"CObservationVelodyneScan", "CObservationVelodyneScan", "84", 1, Meaning::count},
     Place{"CObservationVelodyneScan", "CPose3D", "8+14", 1206, Meaning::count},  // packets
     Place{"CObservationVelodyneScan", "CPose3D", "8+1v4", 72, Meaning::count},   // calibration
@@ -76,6 +76,7 @@ constexpr std::array kPlaces = {
     Place{"CObservationOdometry", "CPose2D", "8+14", 1, Meaning::count},          // label
     Place{"CObservationIMU", "CPose3D", "8+1.8.4", 1, Meaning::count},            // label
     Place{"CObservationComment", "CObservationComment", "4", 1, Meaning::count},
+    Place{"", "CObservationGasSensors", "4", 4, Meaning::count},
     Place{"", "TCamera", "8+xx4", 1, Meaning::count},  // name
     Place{"", "CMatrixD", "x4", 8, Meaning::area},
     Place{"", "CMatrixF", "x4", 4, Meaning::area},
@@ -88,6 +89,7 @@ constexpr std::array kPlaces = {
     // Particles of a movement by the model of Thrun: 300 is usual, a million is too many.
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{7}4", 1024, Meaning::made, 4},
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{6}4", 1024, Meaning::made, 0, 3},
+    Place{"", "CSimpleMap", "4", 4, Meaning::count},
     Place{"", "CSensoryFrame", "4", 2, Meaning::count},
     Place{"", "CActionCollection", "4", 2, Meaning::count},
 };
@@ -128,7 +130,9 @@ bool matches(const std::string& reads, std::size_t place) {
 /// Elements that the last reads claim.
 std::uint64_t claimed(Meaning meaning, std::uint32_t previous, std::uint32_t value) {
     if (meaning == Meaning::count || meaning == Meaning::made) return value;
-    if (meaning == Meaning::area) return std::uint64_t{previous} * value;
+    // MRPT takes its time for many rows of no columns too.
+    if (meaning == Meaning::area)
+        return std::max<std::uint64_t>({std::uint64_t{previous} * value, previous, value});
     const auto width = static_cast<std::int32_t>(previous);
     const auto height = static_cast<std::int32_t>(value);
     if (width >= 0 || height >= 0) return 0;
@@ -160,7 +164,10 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
     name.resize(std::min(name.size(), name.find('\0')));
     name = without_namespace(name);
     // An end flag (0x88) and a number of eight bytes may look like a header too.
-    if (mrpt::rtti::findRegisteredClass(name) == nullptr) return false;
+    const mrpt::rtti::TRuntimeClassId* known = mrpt::rtti::findRegisteredClass(name);
+    if (known == nullptr) return false;
+    name = without_namespace(known->className);
+    if (outer_.empty() && !stands_in_rawlogs(*known)) problem_ = "it is a " + name;
     // MRPT reads a distribution there unless the method is odometry (0), and does not look whether
     // it got one.
     // ("41": the method, and the length of this name.)

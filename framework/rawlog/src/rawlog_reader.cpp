@@ -3,8 +3,6 @@
 
 #include "petal/rawlog/rawlog_reader.hpp"
 
-#include <mrpt/obs/CAction.h>
-#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -17,6 +15,7 @@
 
 #include "mrpt_message.hpp"
 #include "petal/error.hpp"
+#include "rawlog_class.hpp"
 
 namespace petal {
 namespace {
@@ -64,6 +63,11 @@ void RawlogReader::fail(const std::string& what) const {
                 " bytes, uncompressed) were read whole before");
 }
 
+void RawlogReader::fail_foreign(const std::string& name) const {
+    fail("a " + name + " at byte " + std::to_string(stream_.object_begin()) +
+         " is neither observation, action nor sensory frame");
+}
+
 mrpt::obs::CObservation::Ptr RawlogReader::next() {
     while (pending_.empty()) {
         const auto object = next_object();
@@ -102,6 +106,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::read_object() {
                                   " that begins at byte " + std::to_string(stream_.object_begin());
         if (objects_ == 0 && name.empty() && (!stream_.compressed() || stream_.failure().empty()))
             fail("it does not begin with an MRPT object; is it a rawlog?");
+        const auto* known = mrpt::rtti::findRegisteredClass(name);
+        if (known != nullptr && !stands_in_rawlogs(*known)) fail_foreign(known->className);
         if (!stream_.failure().empty())
             fail("it breaks inside " + where + ": " + stream_.failure() + "; copy the file again");
         if (!unknown.empty())
@@ -114,14 +120,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::read_object() {
         fail("it is damaged inside " + where + " (" + mrpt_message(e.what()) +
              "); copy the file again");
     }
-    using namespace mrpt::obs;
-    if (object && !std::dynamic_pointer_cast<CObservation>(object) &&
-        !std::dynamic_pointer_cast<CSensoryFrame>(object) &&
-        !std::dynamic_pointer_cast<CActionCollection>(object) &&
-        !std::dynamic_pointer_cast<CAction>(object))
-        fail(std::string("a ") + object->GetRuntimeClass()->className + " at byte " +
-             std::to_string(stream_.object_begin()) +
-             " is neither observation, action nor sensory frame");
+    if (object && !stands_in_rawlogs(*object->GetRuntimeClass()))
+        fail_foreign(object->GetRuntimeClass()->className);
     ++objects_;
     return object;
 }

@@ -53,6 +53,7 @@ class RawlogReader {
     mrpt::serialization::CSerializable::Ptr read_object();
     void load_image(mrpt::img::CImage& image, const std::string& label);
     [[noreturn]] void fail(const std::string& what) const;
+    [[noreturn]] void fail_foreign(const std::string& name) const;
     std::filesystem::path find_external(const std::string& name, const std::string& label) const;
 
     std::filesystem::path file_;
