@@ -4,12 +4,14 @@
 #include "petal/plugin.hpp"
 
 #include "metrics/labels.hpp"
+#include "metrics/normalised_reprojection.hpp"
 #include "metrics/reprojection.hpp"
 #include "metrics/truth.hpp"
 #include "petal/calibration/metrics.hpp"
 
 PETAL_PLUGIN("metrics", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::LabelsMetric>("metric.labels");
+    r.add<petal::NormalisedReprojectionMetric>("metric.normalised_reprojection");
     r.add<petal::ReprojectionMetric>("metric.reprojection");
     r.add<petal::TruthMetric>("metric.truth");
 });

@@ -3,14 +3,12 @@
 
 #include "metrics/reprojection.hpp"
 
-#include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "metrics/detail/error_figures.hpp"
+#include "metrics/detail/pair_errors.hpp"
 #include "metrics/detail/scene_name.hpp"
-#include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/metrics.hpp"
@@ -45,45 +43,17 @@ without extrinsics.)");
 }
 
 void ReprojectionMetric::finish(Run& run) {
-    const auto& extrinsics = run.in<Extrinsics>("extrinsics");
+    const auto scenes =
+        pair_errors(run.in<Extrinsics>("extrinsics"), run.all<Correspondences>("correspondences"));
     Metrics metrics;
     std::vector<PairError> total;
-    std::size_t lost = 0, unsolved = 0;
-    auto scenes = run.all<Correspondences>("correspondences");
-    std::stable_sort(scenes.begin(), scenes.end(),
-                     [](const auto& a, const auto& b) { return a.frame.number < b.frame.number; });
-    for (const auto& scene : scenes) {
-        std::vector<PairError> errors;
-        for (const CameraPairs& seen : scene->cameras) {
-            const auto solved =
-                std::find_if(extrinsics.cameras.begin(), extrinsics.cameras.end(),
-                             [&](const CameraExtrinsics& camera) {
-                                 return camera.camera == seen.camera && camera.lidar == seen.lidar;
-                             });
-            if (solved == extrinsics.cameras.end()) {
-                unsolved += seen.pairs.size();
-                continue;
-            }
-            const CameraModel model(solved->model);
-            for (const PointPair& pair : seen.pairs) {
-                const auto pixel = model.project(solved->T_camera_lidar * pair.lidar);
-                if (!pixel || !pair.image.allFinite()) {
-                    ++lost;
-                    continue;
-                }
-                errors.push_back({pair.image - *pixel, pair.lidar.norm(), pair.board >= 0});
-            }
-        }
-        for (Metric& figure : error_figures(errors, scene_name(scene.frame)))
+    for (const SceneErrors& scene : scenes) {
+        for (Metric& figure : error_figures(scene.errors, scene_name(scene.frame)))
             metrics.values.push_back(std::move(figure));
-        total.insert(total.end(), errors.begin(), errors.end());
+        total.insert(total.end(), scene.errors.begin(), scene.errors.end());
     }
     for (Metric& figure : error_figures(total, "")) metrics.values.push_back(std::move(figure));
-    if (total.empty() || lost > 0 || unsolved > 0)
-        run.note({"reprojection errors of the pairs",
-                  std::to_string(total.size()) + " measured, " + std::to_string(lost) +
-                      " do not project, " + std::to_string(unsolved) + " of cameras without a pose",
-                  "", "see the notes of the matcher and the solver"});
+    note_unmeasured(run, scenes);
     run.write("metrics", std::move(metrics));
 }
 

@@ -15,18 +15,28 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-/// |du| and |dv| of each corner times its range over the largest range, averaged over all 2N
-/// values.
-double normalised(const std::vector<PairError>& errors) {
+}  // namespace
+
+double largest_range(const std::vector<PairError>& errors) {
     double farthest = 0.0;
     for (const PairError& e : errors) farthest = std::max(farthest, e.range);
-    if (!(farthest > 0.0)) return 0.0;
-    double sum = 0.0;
-    for (const PairError& e : errors) sum += e.error_px.cwiseAbs().sum() * e.range / farthest;
-    return sum / (2.0 * static_cast<double>(errors.size()));
+    return farthest;
 }
 
-}  // namespace
+std::vector<Eigen::Vector2d> normalised_errors(const std::vector<PairError>& errors) {
+    const double farthest = largest_range(errors);
+    std::vector<Eigen::Vector2d> normalised;
+    normalised.reserve(errors.size());
+    for (const PairError& e : errors)
+        normalised.push_back(e.error_px.cwiseAbs() * (farthest > 0.0 ? e.range / farthest : 0.0));
+    return normalised;
+}
+
+double normalised_mean(const std::vector<PairError>& errors) {
+    double sum = 0.0;
+    for (const Eigen::Vector2d& error : normalised_errors(errors)) sum += error.sum();
+    return sum / (2.0 * static_cast<double>(errors.size()));
+}
 
 std::vector<Metric> error_figures(const std::vector<PairError>& errors, const std::string& scene) {
     std::vector<Metric> figures;
@@ -52,7 +62,7 @@ std::vector<Metric> error_figures(const std::vector<PairError>& errors, const st
     add("mean_px", sum / count, "px");
     add("median_px", median(distances), "px");
     add("max_px", *std::max_element(distances.begin(), distances.end()), "px");
-    add("normalised_px", normalised(errors), "px");
+    add("normalised_px", normalised_mean(errors), "px");
     if (board_count > 0.0) add("board_drift_px", board_sum / board_count, "px");
     return figures;
 }
