@@ -79,7 +79,7 @@ TEST_F(JsonValueTest, AMessageTellsFileLineAndPath) {
 }
 
 TEST_F(JsonValueTest, WrongKindsAreRefused) {
-    const JsonValue v = value(R"({"t": "2", "n": 3.5, "e": "", "l": [1, "b"], "huge": 1e999})");
+    const JsonValue v = value(R"({"t": "2", "n": 3.5, "e": "", "l": [1, "b"]})");
     EXPECT_THAT(message([&] { v.at("t").number(); }), HasSubstr("expected a number"));
     EXPECT_THAT(message([&] { v.at("n").integer(0, 9); }),
                 HasSubstr("expected a whole number, 0 to 9"));
@@ -96,6 +96,7 @@ TEST_F(JsonValueTest, WhatIsNoObjectOfOnceGivenKeysIsRefused) {
     EXPECT_THAT(message([&] { value("[1]"); }), HasSubstr("expected an object"));
     EXPECT_THAT(message([&] { value("{\"a\": 1, \"a\": 2}"); }), HasSubstr("'a'"));
     EXPECT_THAT(message([&] { value("{\"a\": "); }), HasSubstr("a.json:1"));
+    EXPECT_THAT(message([&] { value("{\"a\": 1e999}"); }), HasSubstr("does not fit a double"));
     EXPECT_THAT(message([&] { JsonValue::read("/no/such.json", "thing"); }),
                 HasSubstr("thing /no/such.json: no such file"));
 }

@@ -17,7 +17,8 @@ constexpr float kVisible = 0.02F;
 constexpr float kStrong = 0.15F;  // of a pattern: its finer grain is not worth 64 samples
 
 constexpr unsigned kPlaces = 64;
-constexpr unsigned kFirst = 8;  // of them, for the first look
+constexpr unsigned kFirst = 8;    // of them, for the first look
+constexpr unsigned kBeside = 16;  // where no board is: one in each of 4 x 4 cells
 
 /// 64 places in a pixel, in 64ths: the beginning of Sobol's sequence. All their columns and all
 /// their rows differ, so that edges along the axes (boards hang upright) are met to 1/128 px where
@@ -77,6 +78,7 @@ class Picture::Tally {
     void add(const Sight& sample) {
         if (count_ == 0) first_ = sample;
         edge_ = edge_ || sample.surface != first_.surface || sample.lit != first_.lit;
+        board_ = board_ || (sample.surface != nullptr && sample.surface->kind() == Kind::board);
         low_ = low_.cwiseMin(sample.radiance);
         high_ = high_.cwiseMax(sample.radiance);
         sum_ += sample.radiance;
@@ -84,12 +86,14 @@ class Picture::Tally {
     }
     /// Whether an edge of a surface or of a shadow was met.
     bool edge() const { return edge_; }
+    bool board() const { return board_; }
     float contrast() const { return (high_ - low_).maxCoeff(); }
     Eigen::Vector3f mean() const { return sum_ / static_cast<float>(count_); }
 
    private:
     Sight first_;
     bool edge_ = false;
+    bool board_ = false;
     Eigen::Vector3f low_ = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
     Eigen::Vector3f high_ = Eigen::Vector3f::Constant(std::numeric_limits<float>::lowest());
     Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
@@ -140,16 +144,18 @@ Pixel Picture::pixel(int column, int row) const {
         result.mean = inside.mean();
         return result;
     }
-    for (unsigned k = kFirst; k < kPlaces; ++k) {
+    // Leaves and bricks are many, and nobody measures their edges.
+    const unsigned count = all.board() ? kPlaces : kBeside;
+    for (unsigned k = kFirst; k < count; ++k) {
         samples[k] = look(column, row, places.at(k));
         inside.add(samples[k]);
     }
     result.mean = inside.mean();
     result.divided = true;
     result.cells.fill(-result.mean);
-    constexpr unsigned kInCell = kPlaces / (Pixel::kCells * Pixel::kCells);
-    for (unsigned k = 0; k < kPlaces; ++k)
-        result.cells[places.cell(k)] += samples[k].radiance / static_cast<float>(kInCell);
+    const unsigned in_cell = count / (Pixel::kCells * Pixel::kCells);
+    for (unsigned k = 0; k < count; ++k)
+        result.cells[places.cell(k)] += samples[k].radiance / static_cast<float>(in_cell);
     return result;
 }
 

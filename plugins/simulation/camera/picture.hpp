@@ -29,7 +29,8 @@ struct Pixel {
 ///
 /// First one sample at each corner of the pixels. A straight edge that crosses a pixel parts its
 /// corners, so that a pixel whose corners are alike, as are its neighbours', is done. All others
-/// get eight samples inside, and those in which there is something to see get 64.
+/// get eight samples inside, and those in which there is something to see get 64, or 16 where no
+/// board is.
 class Picture {
    public:
     /// \throws Cancelled

@@ -15,8 +15,17 @@ constexpr std::size_t kLeast = 16;  // of a node's surfaces at least this part g
 /// Deep enough for millions of surfaces, though every split were as uneven as it may be.
 constexpr std::size_t kDepth = 256;
 
-/// Where a ray enters a box; infinity where it misses it within `farthest`. A direction of zero
-/// gives infinities that compare as they should.
+/// 1 over each component of a direction. That of zero is finite, so that a ray in a face of a box,
+/// along it, does not make 0 * infinity of its distance to it.
+Eigen::Vector3d inverse_of(const Eigen::Vector3d& direction) {
+    constexpr double kLargest = 1e300;
+    Eigen::Vector3d inverse = direction.cwiseInverse();
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(inverse(axis)) < kLargest)) inverse(axis) = kLargest;
+    return inverse;
+}
+
+/// Where a ray enters a box; infinity where it misses it within `farthest`.
 double entry(const Eigen::AlignedBox3d& box, const Ray& ray, const Eigen::Vector3d& inverse,
              double farthest) {
     double in = 0.0;
@@ -24,7 +33,6 @@ double entry(const Eigen::AlignedBox3d& box, const Ray& ray, const Eigen::Vector
     for (int axis = 0; axis < 3; ++axis) {
         const double a = (box.min()(axis) - ray.origin(axis)) * inverse(axis);
         const double b = (box.max()(axis) - ray.origin(axis)) * inverse(axis);
-        if (std::isnan(a + b)) continue;  // a ray in a face of the box, along it
         in = std::max(in, std::min(a, b));
         out = std::min(out, std::max(a, b));
     }
@@ -123,7 +131,7 @@ void World::walk(const Ray& ray, const Hit& nearest, Visit&& visit) const {
     };
     std::array<Entry, kDepth> stack;
     std::size_t size = 0;
-    const Eigen::Vector3d inverse = ray.direction.cwiseInverse();
+    const Eigen::Vector3d inverse = inverse_of(ray.direction);
     const double root = entry(nodes_[0].box, ray, inverse, nearest.range);
     if (root <= nearest.range) stack[size++] = {0, root};
     while (size > 0) {

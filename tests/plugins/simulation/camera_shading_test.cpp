@@ -81,7 +81,7 @@ TEST(CameraShading, ShadowsLieWhereTheLampThrowsThem) {
     EdgeMisses misses;
     misses.add_polygon(image, model, shadow);
     EXPECT_LE(misses.worst_side(), 0.02) << misses.told();
-    EXPECT_LE(misses.worst_corner(), 0.04) << misses.told();
+    EXPECT_LE(misses.worst_corner(), 0.06) << misses.told() << "; 16 samples beside boards";
 
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& corner : shadow) middle += corner / 4.0;
@@ -143,7 +143,8 @@ TEST(CameraShading, BlurIsThatOfALensBeforeTheSensor) {
         World world;
         add_panel(world, facing({0.0, 0.0, 3.0}), 99.0, 99.0, grey(0.0F));
         const double x = (place - 30.0) / 100.0 * 2.0;
-        add_panel(world, facing({50.0 + x, 0.0, 2.0}), 100.0, 99.0, grey(1.0F));  // from x on
+        add_panel(world, facing({50.0 + x, 0.0, 2.0}), 100.0, 99.0, grey(1.0F),
+                  Kind::board);  // from x on
         world.build();
         CameraDevice camera = plain_camera(61, 41, 100.0);
         camera.blur_px = kSigma;

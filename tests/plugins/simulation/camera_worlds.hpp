@@ -105,10 +105,11 @@ inline PlanarSurface::Polygon centred(double width, double height) {
 }
 
 inline void add_panel(World& world, const Eigen::Isometry3d& T_world_panel, double width,
-                      double height, std::shared_ptr<const Texture> texture) {
+                      double height, std::shared_ptr<const Texture> texture,
+                      Kind kind = Kind::background) {
     world.add(std::make_unique<PlanarSurface>(T_world_panel,
                                               PlanarSurface::Shape{centred(width, height), {}, {}},
-                                              std::move(texture), Kind::background));
+                                              std::move(texture), kind));
 }
 
 /// The corners of the four holes of the letter's board, about its centre: 0.5 m wide, holes 0.1 m.
