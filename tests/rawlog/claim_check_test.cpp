@@ -260,6 +260,16 @@ TEST_F(Claims, RowsOfNoColumns) {
     EXPECT_THAT(read(number(0)), HasSubstr("it claims"));
 }
 
+TEST_F(Claims, AFrameBeforeVersion2HasALabelAndATimeFirst) {
+    for (const char version : {0, 1}) {
+        check_.begin_object();
+        header("mrpt::obs::CSensoryFrame", version);
+        if (version == 0) expect_sound({huge_});
+        expect_sound({std::string(8, '\1')});
+        EXPECT_THAT(read(huge_), HasSubstr("it claims"));
+    }
+}
+
 TEST_F(Claims, ReadingsOfGasSensors) {
     begin("CObservationGasSensors");
     EXPECT_THAT(read(huge_), HasSubstr("it claims"));

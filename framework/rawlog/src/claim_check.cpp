@@ -90,7 +90,8 @@ constexpr std::array kPlaces = {
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{7}4", 1024, Meaning::made, 4},
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{6}4", 1024, Meaning::made, 0, 3},
     Place{"", "CSimpleMap", "4", 4, Meaning::count},
-    Place{"", "CSensoryFrame", "4", 2, Meaning::count},
+    Place{"", "CSensoryFrame", "4", 2, Meaning::count, 2},
+    Place{"", "CSensoryFrame", "x?84", 2, Meaning::count, 0, 1},
     Place{"", "CActionCollection", "4", 2, Meaning::count},
 };
 
@@ -159,10 +160,9 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
         return count == 1 || count == 4;  // 4 before 2008
     }
     if (name_length_ == 0 || count != name_length_) return false;
-    // MRPT ends the name at a NUL, and looks at what follows the namespace alone, whatever that is.
+    // MRPT ends the name at a NUL.
     std::string name(static_cast<const char*>(bytes), count);
     name.resize(std::min(name.size(), name.find('\0')));
-    name = without_namespace(name);
     // An end flag (0x88) and a number of eight bytes may look like a header too.
     const mrpt::rtti::TRuntimeClassId* known = mrpt::rtti::findRegisteredClass(name);
     if (known == nullptr) return false;
