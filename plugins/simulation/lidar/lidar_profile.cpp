@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/shipped_file.hpp"
 #include "petal/json_value.hpp"
 
 namespace petal::simulation {
 namespace {
 
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
 constexpr double kFastest = 1e5;  // Hz, of anything that moves
 
 double angle(const JsonValue& value, double low_deg, double high_deg) {
-    return value.number(low_deg, high_deg, "deg") * kRadian;
+    return value.number(low_deg, high_deg, "deg") / kDegrees;
 }
 
 std::vector<double> angles(const JsonValue& value, double low_deg, double high_deg) {

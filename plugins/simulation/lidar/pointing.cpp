@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "petal/calibration/angles.hpp"
 #include "simulation/lidar/scan_pattern.hpp"
 
 namespace petal::simulation {
 namespace {
 
-constexpr double kDegreeOfError = 3.14159265358979323846 / 180.0;
 constexpr double kUpright = 1e-12;  // squared sine of the angle to the z axis
 
 }  // namespace
@@ -20,7 +20,7 @@ Pointing::Pointing(const LidarDevice& device)
       stretch_(1.0),
       has_axis_(device.profile.pattern.kind == ScanPatternProfile::Kind::prisms) {
     const double rim = device.profile.rim();
-    if (rim > 0.0) stretch_ += device.direction_error_deg * kDegreeOfError / rim;
+    if (rim > 0.0) stretch_ += device.direction_error_deg / kDegrees / rim;
 }
 
 Eigen::Vector3d Pointing::stretched(const Eigen::Vector3d& direction) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "petal/calibration/angles.hpp"
+#include "petal/printed.hpp"
 #include "simulation/scene/board_solid.hpp"
 #include "simulation/scene/materials.hpp"
 
@@ -109,11 +110,11 @@ Scene CapturePlan::draw(const RigPlan& rig, Engine& engine) const {
     if (nearest_miss < kImageMargin)
         boards_[missing].node().fail(
             "does not stay inside the image: of the rigs within " +
-            std::to_string(rig.rotation_deg()) + " deg and " + std::to_string(rig.translation()) +
-            " m of the mounting, some see a corner of it " +
+            printed("%g deg and %g m", rig.rotation_deg(), rig.translation()) +
+            " of the mounting, some see a corner of it " +
             (nearest_miss < -1e6 ? "far outside"
-                                 : std::to_string(kImageMargin - nearest_miss) +
-                                       " px too near to the border, or beyond it,") +
+                                 : printed("%.0f px", kImageMargin - nearest_miss) +
+                                       " too near to the border, or beyond it,") +
             " in the best of " + std::to_string(kTries) +
             " placements; move it towards the middle or farther away, or let rig vary less");
 
