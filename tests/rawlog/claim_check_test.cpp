@@ -261,7 +261,7 @@ TEST_F(Claims, RowsOfNoColumns) {
 }
 
 TEST_F(Claims, AFrameBeforeVersion2HasALabelAndATimeFirst) {
-    for (const char version : {0, 1}) {
+    for (const char version : {'\0', '\1'}) {
         check_.begin_object();
         header("mrpt::obs::CSensoryFrame", version);
         if (version == 0) expect_sound({huge_});
