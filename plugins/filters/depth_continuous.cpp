@@ -25,7 +25,8 @@ jump: corners of rooms, of houses, kerbs. Such edges hold no vacant points. A bo
 margins, and with them its holes, go. Use it to see that, or for a stage that wants natural edges.
 
 Space is cut into voxels of `voxel_size`. In each, planes are taken out one after the other by RANSAC (points within
-`plane_threshold`, at least `min_points` a plane, at most `max_planes`), each fitted again to its points by least squares. Where two of
+`plane_threshold`, at least `min_points` and a share of `min_share` a plane, at most `max_planes`), each fitted again to its points by
+least squares. Points at most three times as far from it are its noise: they take no part in the search for the next. Where two of
 them meet at an angle between `min_angle_deg` and `max_angle_deg`, the points of both that lie within `line_distance` of
 their line of intersection stay, if the other plane has such a point too at most `max_gap` away along the line: planes that would
 meet only beyond their points do not join.
@@ -49,6 +50,12 @@ Each voxel has random numbers of its own: the result does not depend on the numb
     s.param("min_points", &Params::min_points)
         .within(3, 1000000)
         .doc("points that a plane needs in a voxel");
+    s.param("min_share", &Params::min_share)
+        .unit("1")
+        .within(0.0, 1.0)
+        .doc(
+            "share of a voxel's points that a plane needs: noise and vacant points make planes "
+            "too");
     s.param("max_planes", &Params::max_planes)
         .within(2, 20)
         .doc("planes that are looked for in a voxel");
@@ -81,9 +88,6 @@ void DepthContinuous::run(Run& run) {
     const auto finite = finite_points(cloud);
     const SpaceCells voxels(cloud, finite, params_.voxel_size, run);
     const Rng::result_type seed = run.rng()();
-    const auto& xs = cloud.points->getPointsBufferRef_x();
-    const auto& ys = cloud.points->getPointsBufferRef_y();
-    const auto& zs = cloud.points->getPointsBufferRef_z();
     std::vector<std::uint8_t> stays(cloud.size(), 0);
     for_pieces(run, voxels.size(), kVoxels, [&](std::size_t begin, std::size_t end) {
         JoiningPlanes planes(params_, params_.min_angle_deg / kDegrees,
@@ -94,12 +98,11 @@ void DepthContinuous::run(Run& run) {
             if (own.size() < 2 * static_cast<std::size_t>(params_.min_points)) continue;
             if (run.cancelled()) return;
             points.clear();
-            for (const std::uint32_t i : own)
-                points.emplace_back(static_cast<double>(xs[i]), static_cast<double>(ys[i]),
-                                    static_cast<double>(zs[i]));
+            for (const SpaceCells::Point& p : own)
+                points.push_back(Eigen::Vector3f(p.x, p.y, p.z).cast<double>());
             Rng rng(seed + voxel);
             const auto& marked = planes.at_joins(points, rng);
-            for (std::size_t k = 0; k < own.size(); ++k) stays[own.first[k]] = marked[k];
+            for (std::size_t k = 0; k < own.size(); ++k) stays[own.first[k].index] = marked[k];
         }
     });
     std::vector<std::uint32_t> kept;

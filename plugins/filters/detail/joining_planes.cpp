@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace petal {
 namespace {
@@ -14,14 +13,17 @@ namespace {
 constexpr int kDraws = 60;              // finds a plane that holds 3 of 10 points in 4 of 5 cases
 constexpr std::size_t kScoredOn = 200;  // points that a draw is judged by
 constexpr double kLeastSine = 1e-3;     // of three points' angle, to define a plane
-constexpr double kSlack = 1e-9;         // rad: 90 deg are 90 deg, whatever the rounding
+constexpr double kNoise = 3.0;   // times plane_threshold: what lies within is the plane's noise
+constexpr double kSlack = 1e-9;  // rad: 90 deg are 90 deg, whatever the rounding
 
 }  // namespace
 
 const std::vector<std::uint8_t>& JoiningPlanes::at_joins(const std::vector<Eigen::Vector3d>& points,
                                                          Rng& rng) {
     marked_.assign(points.size(), 0);
-    find_surfaces(points, rng);
+    find_planes(points, rng);
+    if (surfaces_.size() < 2) return marked_;
+    share_out(points);
     for (std::size_t a = 0; a < surfaces_.size(); ++a)
         for (std::size_t b = a + 1; b < surfaces_.size(); ++b)
             mark_join(points, surfaces_[a], surfaces_[b]);
@@ -51,27 +53,39 @@ bool JoiningPlanes::draw_plane(const std::vector<Eigen::Vector3d>& points, Rng& 
     return best_count > 0;
 }
 
-void JoiningPlanes::find_surfaces(const std::vector<Eigen::Vector3d>& points, Rng& rng) {
+void JoiningPlanes::find_planes(const std::vector<Eigen::Vector3d>& points, Rng& rng) {
     surfaces_.clear();
     remaining_.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) remaining_[i] = static_cast<std::uint32_t>(i);
-    const auto least = static_cast<std::size_t>(params_.min_points);
+    const std::size_t least =
+        std::max(static_cast<std::size_t>(params_.min_points),
+                 static_cast<std::size_t>(params_.min_share * static_cast<double>(points.size())));
     while (static_cast<int>(surfaces_.size()) < params_.max_planes && remaining_.size() >= least) {
-        Surface surface;
-        if (!draw_plane(points, rng, surface.plane)) return;
-        const auto far = [&](std::uint32_t i) {
-            return std::abs(surface.plane.distance(points[i])) > params_.plane_threshold;
-        };
+        PlaneFit plane;
+        if (!draw_plane(points, rng, plane)) return;
         PlaneFitter fitter;
         for (const std::uint32_t i : remaining_)
-            if (!far(i)) fitter.add(points[i]);
-        if (const auto fit = fitter.fit()) surface.plane = *fit;
-        const auto rest = std::stable_partition(remaining_.begin(), remaining_.end(), far);
-        surface.points.assign(rest, remaining_.end());
-        if (surface.points.size() < least) return;
-        remaining_.erase(rest, remaining_.end());
-        surfaces_.push_back(std::move(surface));
+            if (std::abs(plane.distance(points[i])) <= params_.plane_threshold)
+                fitter.add(points[i]);
+        if (fitter.size() < least) return;
+        if (const auto fit = fitter.fit()) plane = *fit;
+        const double noise = kNoise * params_.plane_threshold;
+        remaining_.erase(std::remove_if(remaining_.begin(), remaining_.end(),
+                                        [&](std::uint32_t i) {
+                                            return std::abs(plane.distance(points[i])) <= noise;
+                                        }),
+                         remaining_.end());
+        surfaces_.push_back({plane, {}});
     }
+}
+
+void JoiningPlanes::share_out(const std::vector<Eigen::Vector3d>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (Surface& surface : surfaces_)
+            if (std::abs(surface.plane.distance(points[i])) <= params_.plane_threshold) {
+                surface.points.push_back(static_cast<std::uint32_t>(i));
+                break;
+            }
 }
 
 void JoiningPlanes::mark_join(const std::vector<Eigen::Vector3d>& points, const Surface& a,

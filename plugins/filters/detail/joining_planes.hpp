@@ -15,6 +15,7 @@ namespace petal {
 struct JoiningPlanesParams {
     double plane_threshold = 0.03;
     int min_points = 30;
+    double min_share = 0.1;
     int max_planes = 4;
     double line_distance = 0.05;
     double max_gap = 0.05;
@@ -42,7 +43,10 @@ class JoiningPlanes {
         std::uint32_t point;
     };
 
-    void find_surfaces(const std::vector<Eigen::Vector3d>& points, Rng& rng);
+    /// Fills surfaces_, all but their points.
+    void find_planes(const std::vector<Eigen::Vector3d>& points, Rng& rng);
+    /// Gives each point to the first plane that it is near to.
+    void share_out(const std::vector<Eigen::Vector3d>& points);
     /// The best plane through three of the remaining points; none where no three define one.
     bool draw_plane(const std::vector<Eigen::Vector3d>& points, Rng& rng, PlaneFit& best) const;
     void mark_join(const std::vector<Eigen::Vector3d>& points, const Surface& a, const Surface& b);
@@ -55,7 +59,7 @@ class JoiningPlanes {
     JoiningPlanesParams params_;
     double min_angle_, max_angle_;
     std::vector<Surface> surfaces_;
-    std::vector<std::uint32_t> remaining_;
+    std::vector<std::uint32_t> remaining_;  ///< far from all planes found
     std::vector<std::uint8_t> marked_;
 };
 
