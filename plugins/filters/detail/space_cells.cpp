@@ -36,7 +36,7 @@ std::int32_t place_of(float coordinate, double edge) {
 
 SpaceCells::SpaceCells(const Cloud& cloud, const std::vector<std::uint32_t>& indices, double edge,
                        const Run& run)
-    : order_(indices.size()) {
+    : points_(indices.size()) {
     const auto& xs = cloud.points->getPointsBufferRef_x();
     const auto& ys = cloud.points->getPointsBufferRef_y();
     const auto& zs = cloud.points->getPointsBufferRef_z();
@@ -51,34 +51,44 @@ SpaceCells::SpaceCells(const Cloud& cloud, const std::vector<std::uint32_t>& ind
     tbb::task_arena(run.threads()).execute([&] {
         tbb::parallel_sort(placed.begin(), placed.end(), earlier);
     });
-    for (std::size_t k = 0; k < placed.size(); ++k) {
+    for (std::size_t k = 0; k < placed.size(); ++k)
         if (k == 0 || placed[k].place != placed[k - 1].place)
             cells_.push_back({placed[k].place, static_cast<std::uint32_t>(k)});
-        order_[k] = placed[k].index;
-    }
+    for_pieces(run, placed.size(), kPiece, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::uint32_t i = placed[k].index;
+            points_[k] = {xs[i], ys[i], zs[i], i};
+        }
+    });
 }
 
 SpaceCells::Points SpaceCells::points(std::size_t cell) const {
-    const std::size_t end = cell + 1 < cells_.size() ? cells_[cell + 1].begin : order_.size();
-    return {order_.data() + cells_[cell].begin, order_.data() + end};
+    const std::size_t end = cell + 1 < cells_.size() ? cells_[cell + 1].begin : points_.size();
+    return {points_.data() + cells_[cell].begin, points_.data() + end};
 }
 
-void SpaceCells::around(std::size_t cell, int reach, std::vector<Points>& found) const {
-    found.clear();
-    const auto [x, y, z] = cells_[cell].place;
-    const auto before = [](const Cell& a, const std::array<std::int32_t, 3>& b) {
-        return a.place < b;
-    };
-    for (std::int32_t i = x - reach; i <= x + reach; ++i)
-        for (std::int32_t j = y - reach; j <= y + reach; ++j) {
-            auto at = std::lower_bound(cells_.begin(), cells_.end(),
-                                       std::array<std::int32_t, 3>{i, j, z - reach}, before);
-            const std::array<std::int32_t, 3> last{i, j, z + reach};
-            for (; at != cells_.end() && at->place <= last; ++at) {
-                const auto other = static_cast<std::size_t>(at - cells_.begin());
-                if (other != cell) found.push_back(points(other));
-            }
+SpaceCells::Around::Around(const SpaceCells& cells, int reach) : cells_(&cells), reach_(reach) {}
+
+const std::vector<SpaceCells::Points>& SpaceCells::Around::of(std::size_t cell) {
+    found_.clear();
+    const std::vector<Cell>& cells = cells_->cells_;
+    const auto [x, y, z] = cells[cell].place;
+    const bool first = next_.empty();
+    if (first) next_.resize(static_cast<std::size_t>((2 * reach_ + 1) * (2 * reach_ + 1)));
+    auto next = next_.begin();
+    for (std::int32_t i = x - reach_; i <= x + reach_; ++i)
+        for (std::int32_t j = y - reach_; j <= y + reach_; ++j, ++next) {
+            const Place begin{i, j, z - reach_}, last{i, j, z + reach_};
+            if (first)
+                *next = static_cast<std::size_t>(
+                    std::lower_bound(cells.begin(), cells.end(), begin,
+                                     [](const Cell& a, const Place& b) { return a.place < b; }) -
+                    cells.begin());
+            while (*next < cells.size() && cells[*next].place < begin) ++*next;
+            for (std::size_t at = *next; at < cells.size() && cells[at].place <= last; ++at)
+                if (at != cell) found_.push_back(cells_->points(at));
         }
+    return found_;
 }
 
 }  // namespace petal

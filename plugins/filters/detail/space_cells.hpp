@@ -17,14 +17,20 @@ namespace petal {
 /// by sorting; only cells that hold a point exist.
 class SpaceCells {
    public:
-    /// Some points, as indices into the cloud, ascending.
+    struct Point {
+        float x, y, z;
+        std::uint32_t index;  ///< in the cloud
+    };
+    /// The points of a cell, in the cloud's order.
     struct Points {
-        const std::uint32_t* first = nullptr;
-        const std::uint32_t* last = nullptr;
-        const std::uint32_t* begin() const { return first; }
-        const std::uint32_t* end() const { return last; }
+        const Point* first = nullptr;
+        const Point* last = nullptr;
+        const Point* begin() const { return first; }
+        const Point* end() const { return last; }
         std::size_t size() const { return static_cast<std::size_t>(last - first); }
     };
+    /// Finds the cells around one cell after the other.
+    class Around;
 
     /// Sorts the points with these indices, whose coordinates are finite, on the run's threads.
     /// Cells more than 2^30 from the origin along an axis are one with the last that is not.
@@ -34,18 +40,32 @@ class SpaceCells {
     std::size_t size() const { return cells_.size(); }
     Points points(std::size_t cell) const;
 
-    /// The points of the cell and of all that are at most `reach` cells away along each axis, those
-    /// of the cell itself left out, in a fixed order; `found` is cleared first.
-    void around(std::size_t cell, int reach, std::vector<Points>& found) const;
-
    private:
+    using Place = std::array<std::int32_t, 3>;
     struct Cell {
-        std::array<std::int32_t, 3> place;
-        std::uint32_t begin;  ///< of its points in order_
+        Place place;
+        std::uint32_t begin;  ///< of its points in points_
     };
 
-    std::vector<Cell> cells_;           ///< ordered by place
-    std::vector<std::uint32_t> order_;  ///< indices into the cloud, cell by cell
+    std::vector<Cell> cells_;    ///< ordered by place
+    std::vector<Point> points_;  ///< cell by cell
+};
+
+class SpaceCells::Around {
+   public:
+    /// Looks at most `reach` cells away along each axis. `cells` outlives it.
+    Around(const SpaceCells& cells, int reach);
+
+    /// The points of the cells around, those of the cell itself left out, in a fixed order; valid
+    /// until the next call. Cells are asked for in ascending order: as the cells are sorted, what
+    /// was found for the last one leads to the next, without a search.
+    const std::vector<Points>& of(std::size_t cell);
+
+   private:
+    const SpaceCells* cells_;
+    std::int32_t reach_;
+    std::vector<std::size_t> next_;  ///< for each column along z, where the last one was found
+    std::vector<Points> found_;
 };
 
 }  // namespace petal

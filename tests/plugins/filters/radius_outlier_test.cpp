@@ -24,14 +24,16 @@ StageHarness ball(double radius, int min_neighbours) {
     return stage;
 }
 
-TEST(RadiusOutlierStage, TheRadiusItselfIsInside) {
-    // On both sides of the origin, where cells have their borders. 0.25 and 0.5 are exact.
-    const Points points = {{-0.25F, 0, 0}, {0.25F, 0, 0}, {0.75F, 0, 0}, {1.2501F, 0, 0}};
+TEST(RadiusOutlierStage, TheRadiusItselfIsOutside) {
+    // On both sides of the origin, where cells have their borders.
+    const Points points = {{-0.25F, 0, 0}, {0.25F, 0, 0}, {0.74F, 0, 0}, {1.25F, 0, 0}};
     auto one = ball(0.5, 1);
-    EXPECT_THAT(kept_by(one, points), ElementsAre(0, 1, 2));
-    auto two = ball(0.5, 2);
+    EXPECT_THAT(kept_by(one, points), ElementsAre(1, 2));
+    auto wider = ball(0.501, 1);
+    EXPECT_THAT(kept_by(wider, points), ElementsAre(0, 1, 2));
+    auto two = ball(0.501, 2);
     EXPECT_THAT(kept_by(two, points), ElementsAre(1));
-    auto three = ball(0.5, 3);
+    auto three = ball(0.501, 3);
     EXPECT_TRUE(kept_by(three, points).empty());
     ASSERT_EQ(three.notes().size(), 1U);
     EXPECT_EQ(three.notes()[0].nearest_miss, "none of 4 points stays");
@@ -73,7 +75,7 @@ TEST(RadiusOutlierStage, TheSameAsCountingAllPairs) {
             for (const auto& other : points)
                 if (std::hypot(double{points[i][0]} - double{other[0]},
                                double{points[i][1]} - double{other[1]},
-                               double{points[i][2]} - double{other[2]}) <= radius)
+                               double{points[i][2]} - double{other[2]}) < radius)
                     ++count;
             if (count >= enough) expected.push_back(i);
         }
