@@ -23,9 +23,10 @@ constexpr int kApart = 2;  ///< cells between those that slopes are taken from
 
 /// What a cell tells its neighbours.
 struct CellRanges {
-    float nearest = 0.0F;
-    float farthest = 0.0F;
-    float front = 0.0F;  ///< where its nearest points crowd
+    float nearest = 0.0F;   ///< m
+    float farthest = 0.0F;  ///< m
+    float inverse = 0.0F;   ///< 1/m: of the range where its nearest points crowd, at:
+    float azimuth = 0.0F, elevation = 0.0F;  ///< rad, the mean of its points
 };
 
 /// A plane near one direction: the inverse of the range to it is linear in small angles.
@@ -42,7 +43,7 @@ struct Plane {
     }
 };
 
-/// The slopes (1/m/rad) that a surface through a cell may have along one axis: one or three.
+/// The slopes (1/m/rad) that a surface through a cell may have along one axis: one to three.
 struct Slopes {
     std::array<float, 3> values{};
     std::size_t count = 1;
@@ -65,9 +66,17 @@ class MarginJudge {
     };
 
     bool has_depth(const CellWindow& window, std::uint32_t cell) const;
-    Slopes slopes(const CellWindow& window, std::uint32_t cell, int dx, int dy) const;
+    enum class Axis { azimuth, elevation };
+    /// \param cross the slope along the other axis
+    Slopes slopes(const CellWindow& window, std::uint32_t cell, Axis axis, float cross) const;
     /// Puts how far the window's points lie behind the plane into behind_.
     Flattened flatten(const CellWindow& window, const Plane& plane);
+    /// How far the cell's own points lie behind the plane at most, m: a frontier behind that is
+    /// not theirs.
+    float last_own(std::uint32_t cell, const Plane& plane) const;
+    /// How far from the frontier's centre its points may lie, m: the letter's deflation.
+    float depth(const RangeMode& frontier) const;
+    bool has_points_at(std::uint32_t cell, const Plane& plane, const RangeMode& frontier) const;
     bool keep(const CellWindow& window, std::uint32_t cell, const Plane& surface,
               const RangeMode& frontier, std::vector<std::uint8_t>& marks);
 
@@ -79,60 +88,111 @@ class MarginJudge {
     std::vector<AngularPoint> far_;  ///< of a window, those behind the frontier
 };
 
-CellRanges cell_ranges(const AngularCells& cells, std::size_t cell, const MarginSettings& settings,
+/// The mean inverse range of points that lie on one plane, however slanted; 0 where they do not.
+float inverse_on_plane(const AngularPoint* first, const AngularPoint* last, const CellRanges& cell,
+                       float threshold) {
+    const auto size = static_cast<float>(last - first);
+    float mean = 0.0F;
+    for (const AngularPoint* p = first; p != last; ++p) mean += 1.0F / p->range;
+    mean /= size;
+    // Normal equations about the means, in milliradians lest they underflow.
+    constexpr float kScale = 1e3F;
+    float xx = 0.0F, xy = 0.0F, yy = 0.0F, xq = 0.0F, yq = 0.0F;
+    for (const AngularPoint* p = first; p != last; ++p) {
+        const float x = kScale * (p->azimuth - cell.azimuth);
+        const float y = kScale * (p->elevation - cell.elevation);
+        const float q = 1.0F / p->range - mean;
+        xx += x * x, xy += x * y, yy += y * y, xq += x * q, yq += y * q;
+    }
+    const float determinant = xx * yy - xy * xy;
+    if (!(determinant > 1e-6F * xx * yy)) return 0.0F;
+    const Plane plane{mean, cell.azimuth, cell.elevation,
+                      kScale * (xq * yy - yq * xy) / determinant,
+                      kScale * (yq * xx - xq * xy) / determinant};
+    for (const AngularPoint* p = first; p != last; ++p)
+        if (std::abs(plane.behind(*p)) > 0.5F * threshold) return 0.0F;
+    return mean;
+}
+
+/// The inverse of the nearest range at which a fifth of the points, and at least two, crowd.
+float inverse_of_front(const AngularPoint* first, const AngularPoint* last, float width,
                        std::vector<float>& sorted) {
     sorted.clear();
-    for (std::size_t i = cells.begin(cell); i < cells.begin(cell + 1); ++i)
-        sorted.push_back(cells.points()[i].range);
-    CellRanges result;
-    const auto [nearest, farthest] = std::minmax_element(sorted.begin(), sorted.end());
-    result.nearest = *nearest;
-    result.farthest = *farthest;
-    std::size_t first = 0, last = sorted.size();
-    if (result.farthest - result.nearest > settings.threshold) {
-        std::sort(sorted.begin(), sorted.end());
-        const std::size_t needed = std::max<std::size_t>(2, (sorted.size() + 4) / 5);
-        const float width = 4.0F * settings.noise;
-        while (first + needed <= sorted.size() &&
-               sorted[first + needed - 1] - sorted[first] > width)
-            ++first;
-        if (first + needed > sorted.size()) first = 0;
-        last = static_cast<std::size_t>(
-            std::upper_bound(sorted.begin(), sorted.end(), sorted[first] + width) - sorted.begin());
-    }
+    for (const AngularPoint* p = first; p != last; ++p) sorted.push_back(p->range);
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t needed = std::max<std::size_t>(2, (sorted.size() + 4) / 5);
+    std::size_t begin = 0;
+    while (begin + needed <= sorted.size() && sorted[begin + needed - 1] - sorted[begin] > width)
+        ++begin;
+    if (begin + needed > sorted.size()) begin = 0;
     float sum = 0.0F;
-    for (std::size_t i = first; i < last; ++i) sum += sorted[i] - result.nearest;
-    result.front = result.nearest + sum / static_cast<float>(last - first);
+    std::size_t end = begin;
+    for (; end < sorted.size() && sorted[end] <= sorted[begin] + width; ++end)
+        sum += sorted[end] - sorted[begin];
+    return 1.0F / (sorted[begin] + sum / static_cast<float>(end - begin));
+}
+
+CellRanges cell_ranges(const AngularCells& cells, std::size_t cell, const MarginSettings& settings,
+                       std::vector<float>& sorted) {
+    const AngularPoint* first = cells.points().data() + cells.begin(cell);
+    const AngularPoint* last = cells.points().data() + cells.begin(cell + 1);
+    const auto size = static_cast<float>(last - first);
+    CellRanges result;
+    result.nearest = result.farthest = first->range;
+    float azimuth = 0.0F, elevation = 0.0F, range = 0.0F;
+    for (const AngularPoint* p = first; p != last; ++p) {
+        result.nearest = std::min(result.nearest, p->range);
+        result.farthest = std::max(result.farthest, p->range);
+        azimuth += p->azimuth - first->azimuth;
+        elevation += p->elevation - first->elevation;
+        range += p->range - first->range;
+    }
+    result.azimuth = first->azimuth + azimuth / size;
+    result.elevation = first->elevation + elevation / size;
+    if (result.farthest - result.nearest <= settings.threshold) {
+        result.inverse = 1.0F / (first->range + range / size);
+    } else {
+        result.inverse = inverse_on_plane(first, last, result, settings.threshold);
+        if (result.inverse == 0.0F)
+            result.inverse = inverse_of_front(first, last, 4.0F * settings.noise, sorted);
+    }
     return result;
 }
 
-Slopes MarginJudge::slopes(const CellWindow& window, std::uint32_t cell, int dx, int dy) const {
-    const float here = ranges_[cell].front;
-    const auto front = [&](int side) {
-        const std::uint32_t other = window.cell(side * dx, side * dy);
-        return other == CellWindow::kNone ? 0.0F : ranges_[other].front;
+Slopes MarginJudge::slopes(const CellWindow& window, std::uint32_t cell, Axis axis,
+                           float cross) const {
+    const CellRanges& here = ranges_[cell];
+    const bool across = axis == Axis::azimuth;
+    // The rise per rad to the cell on that side, without what it owes to lying off the axis.
+    const auto rise = [&](int side) -> std::optional<float> {
+        const std::uint32_t other = window.cell(across ? side : 0, across ? 0 : side);
+        if (other == CellWindow::kNone) return std::nullopt;
+        const float x = ranges_[other].azimuth - here.azimuth;
+        const float y = ranges_[other].elevation - here.elevation;
+        return (ranges_[other].inverse - here.inverse - cross * (across ? y : x)) /
+               (across ? x : y);
     };
-    const float before = front(-kApart), after = front(kApart);
-    const auto rise = [&](float from, float to) {
-        return (1.0F / to - 1.0F / from) / (kApart * step_);
-    };
+    const auto back = rise(-kApart), forth = rise(kApart);
     Slopes result;
-    if (before > 0.0F && after > 0.0F) {
-        const float back = rise(before, here), forth = rise(here, after);
-        const float bend = before + after - 2.0F * here;
-        if (bend > settings_.threshold) {
-            // The surface ends on one side: there something is behind it, and the slope is steeper.
-            result.values[0] = std::abs(back) < std::abs(forth) ? back : forth;
-        } else {
-            result.values = {0.5F * (back + forth), back, forth};
-            // In the window the three planes differ by up to 3/8 of the bend.
-            if (bend > -settings_.threshold && std::abs(bend) > 8.0F / 3.0F * settings_.noise)
-                result.count = 3;
-        }
-    } else if (before > 0.0F) {
-        result.values[0] = rise(before, here);
-    } else if (after > 0.0F) {
-        result.values[0] = rise(here, after);
+    if (!back || !forth) {
+        result.values[0] = back ? *back : forth.value_or(0.0F);
+        return result;
+    }
+    const bool back_is_flatter = std::abs(*back) < std::abs(*forth);
+    const float flatter = back_is_flatter ? *back : *forth;
+    const float steeper = back_is_flatter ? *forth : *back;
+    // By how much both sides turn away from the sensor, m.
+    const float bend = (*back - *forth) * kApart * step_ / (here.inverse * here.inverse);
+    if (bend > settings_.threshold) {
+        // The surface ends on one side: there something is behind it, and the slope is steeper.
+        result.values[0] = flatter;
+    } else if (bend < -settings_.threshold) {
+        result.values = {flatter, steeper};
+        result.count = 2;
+    } else {
+        result.values = {0.5F * (*back + *forth), flatter, steeper};
+        // In the window the three planes differ by up to 3/8 of the bend.
+        result.count = std::abs(bend) > 8.0F / 3.0F * settings_.noise ? 3 : 1;
     }
     return result;
 }
@@ -176,16 +236,11 @@ bool MarginJudge::has_depth(const CellWindow& window, std::uint32_t cell) const 
 bool MarginJudge::mark(const CellWindow& window, std::uint32_t cell,
                        std::vector<std::uint8_t>& marks) {
     if (!has_depth(window, cell)) return false;
-    Plane plane;
-    for (std::uint32_t i = cells_.begin(cell); i < cells_.begin(cell + 1); ++i) {
-        plane.azimuth += cells_.points()[i].azimuth;
-        plane.elevation += cells_.points()[i].elevation;
-    }
-    plane.azimuth /= static_cast<float>(cells_.count(cell));
-    plane.elevation /= static_cast<float>(cells_.count(cell));
-    plane.inverse = 1.0F / ranges_[cell].front;
-
-    const Slopes across = slopes(window, cell, 1, 0), up = slopes(window, cell, 0, 1);
+    const CellRanges& own = ranges_[cell];
+    Plane plane{own.inverse, own.azimuth, own.elevation, 0.0F, 0.0F};
+    const float rough = slopes(window, cell, Axis::elevation, 0.0F).values[0];
+    const Slopes across = slopes(window, cell, Axis::azimuth, rough);
+    const Slopes up = slopes(window, cell, Axis::elevation, across.values[0]);
     std::optional<RangeMode> frontier;
     Plane surface;
     for (std::size_t x = 0; x < across.count; ++x)
@@ -194,16 +249,39 @@ bool MarginJudge::mark(const CellWindow& window, std::uint32_t cell,
             plane.up = up.values[y];
             const Flattened flat = flatten(window, plane);
             if (flat.farthest[1] - flat.nearest[1] <= settings_.threshold) return false;
-            const auto mode = nearest_mode(behind_, settings_.noise,
-                                           static_cast<std::size_t>(settings_.min_points));
+            const auto mode =
+                nearest_mode(behind_, settings_.noise,
+                             static_cast<std::size_t>(settings_.min_points), last_own(cell, plane));
+            const bool likeliest = x == 0 && y == 0;  // the others can only object
+            if (!mode && likeliest) return false;
             if (!mode) continue;
             if (flat.farthest[1] <= mode->centre + settings_.threshold) return false;
-            if (frontier && mode->count <= frontier->count) continue;
+            if (!likeliest) continue;
+            if (!has_points_at(cell, plane, *mode)) return false;
             frontier = mode;
             surface = plane;
         }
-    if (!frontier) return false;
     return keep(window, cell, surface, *frontier, marks);
+}
+
+float MarginJudge::depth(const RangeMode& frontier) const {
+    // Few points, or ones without noise, may happen to lie at one range.
+    return settings_.deflation * std::max(frontier.deviation, 0.5F * settings_.noise);
+}
+
+bool MarginJudge::has_points_at(std::uint32_t cell, const Plane& plane,
+                                const RangeMode& frontier) const {
+    const auto first = cells_.points().begin() + cells_.begin(cell);
+    return std::any_of(first, first + cells_.count(cell), [&](const AngularPoint& point) {
+        return std::abs(plane.behind(point) - frontier.centre) <= depth(frontier);
+    });
+}
+
+float MarginJudge::last_own(std::uint32_t cell, const Plane& plane) const {
+    float last = -kFar;
+    for (std::uint32_t i = cells_.begin(cell); i < cells_.begin(cell + 1); ++i)
+        last = std::max(last, plane.behind(cells_.points()[i]));
+    return last;
 }
 
 bool MarginJudge::keep(const CellWindow& window, std::uint32_t cell, const Plane& surface,
@@ -220,9 +298,7 @@ bool MarginJudge::keep(const CellWindow& window, std::uint32_t cell, const Plane
     bool any = false;
     for (std::uint32_t i = cells_.begin(cell); i < cells_.begin(cell + 1); ++i) {
         const AngularPoint& point = points[i];
-        if (std::abs(surface.behind(point) - frontier.centre) >
-            settings_.deflation * frontier.deviation)
-            continue;
+        if (std::abs(surface.behind(point) - frontier.centre) > depth(frontier)) continue;
         const bool near = std::any_of(far_.begin(), far_.end(), [&](const AngularPoint& far) {
             const float x = narrow * (far.azimuth - point.azimuth);
             const float y = far.elevation - point.elevation;

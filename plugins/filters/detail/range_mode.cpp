@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kHalfWidth = 2.0F;  ///< of the mean shift's flat kernel, in sigma
 constexpr float kBehind = 5.0F;     ///< sigma: as far back a mode is compared with what follows
-constexpr int kShifts = 8;
+constexpr int kShifts = 5;
 
 using Ranges = std::vector<float>;
 
@@ -41,18 +41,25 @@ RangeMode shifted(const Ranges& ranges, float start, float half) {
 
 }  // namespace
 
-std::optional<RangeMode> nearest_mode(std::vector<float>& ranges, float noise, std::size_t fewest) {
-    std::sort(ranges.begin(), ranges.end());
+std::optional<RangeMode> nearest_mode(std::vector<float>& ranges, float noise, std::size_t fewest,
+                                      float last) {
     const float half = kHalfWidth * noise;
-    for (std::size_t i = 0; i + fewest <= ranges.size(); ++i) {
+    // A mode wanders by less than half a kernel a shift; most stay within one.
+    const float limit = last + 2.0F * half + kBehind * noise;
+    ranges.erase(std::remove_if(ranges.begin(), ranges.end(),
+                                [limit](float range) { return !(range <= limit); }),
+                 ranges.end());
+    std::sort(ranges.begin(), ranges.end());
+    const auto passing = [](std::size_t inside, std::ptrdiff_t behind) {
+        // The strip behind is 3/4 as wide as the kernel: this asks for twice its density.
+        return 3 * inside >= 8 * static_cast<std::size_t>(behind);
+    };
+    for (std::size_t i = 0; i + fewest <= ranges.size() && ranges[i] <= last; ++i) {
         if (ranges[i + fewest - 1] - ranges[i] > 2.0F * half) continue;
         const RangeMode mode = shifted(ranges, ranges[i] + half, half);
-        const auto last = std::upper_bound(ranges.begin(), ranges.end(), mode.centre + half);
-        const auto behind =
-            std::upper_bound(last, ranges.end(), mode.centre + kBehind * noise) - last;
-        // The strip behind is 3/4 as wide as the kernel: this asks for twice its density.
-        if (mode.count >= fewest && 3 * mode.count >= 8 * static_cast<std::size_t>(behind))
-            return mode;
+        const auto end = std::upper_bound(ranges.begin(), ranges.end(), mode.centre + half);
+        const auto behind = std::upper_bound(end, ranges.end(), mode.centre + kBehind * noise);
+        if (mode.count >= fewest && passing(mode.count, behind - end)) return mode;
         // Go on behind the place that was no surface.
         const auto next = std::upper_bound(ranges.begin(), ranges.end(), mode.centre);
         i = std::max(i, static_cast<std::size_t>(next - ranges.begin()));
