@@ -80,6 +80,26 @@ TEST(DepthContinuousStage, AJumpInDepthIsNoJoin) {
     EXPECT_TRUE(kept_by(board, parallel).empty());
 }
 
+TEST(DepthContinuousStage, NoiseAndVacantPointsMakeNoPlane) {
+    // A board in front of a wall with a noise of up to 6 cm, twice the thickness of a plane, and a
+    // curtain of vacant points between them, one in 25 of all: each could hold planes of its own.
+    std::mt19937_64 engine(5);
+    Points points;
+    for (int i = 0; i < 12500; ++i) {
+        const float across = testing::draw(engine, 0.0F, 0.7F);
+        const bool vacant = i % 25 == 0;
+        // Of three draws the sum is bell-shaped: sigma 2 cm.
+        float noise = 0.0F;
+        for (int k = 0; k < 3; ++k) noise += testing::draw(engine, -0.02F, 0.02F);
+        const float depth =
+            vacant ? testing::draw(engine, 0.1F, 0.5F) : (across < 0.35F ? 0.1F : 0.5F) + noise;
+        points.push_back({4.1F + depth, 1.1F + (vacant ? 0.35F : across),
+                          2.1F + testing::draw(engine, 0.0F, 0.5F)});
+    }
+    auto stage = joins();
+    EXPECT_TRUE(kept_by(stage, points).empty());
+}
+
 TEST(DepthContinuousStage, WhereOnlyPartOfTheLineIsSharedOnlyThatPartStays) {
     std::size_t floor = 0;
     Points points = floor_and_wall(0.0F, 0.0, floor);
