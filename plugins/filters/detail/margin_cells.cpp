@@ -10,6 +10,8 @@
 #include <limits>
 #include <optional>
 
+#include "filters/detail/angular_plane.hpp"
+#include "filters/detail/cell_ranges.hpp"
 #include "filters/detail/cell_window.hpp"
 #include "filters/detail/for_pieces.hpp"
 #include "filters/detail/range_mode.hpp"
@@ -20,28 +22,6 @@ namespace {
 constexpr std::size_t kRowsAtOnce = 4;
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr int kApart = 2;  ///< cells between those that slopes are taken from
-
-/// What a cell tells its neighbours.
-struct CellRanges {
-    float nearest = 0.0F;   ///< m
-    float farthest = 0.0F;  ///< m
-    float inverse = 0.0F;   ///< 1/m: of the range where its nearest points crowd, at:
-    float azimuth = 0.0F, elevation = 0.0F;  ///< rad, the mean of its points
-};
-
-/// A plane near one direction: the inverse of the range to it is linear in small angles.
-struct Plane {
-    float inverse = 0.0F;                    ///< 1/m, at:
-    float azimuth = 0.0F, elevation = 0.0F;  ///< rad
-    float across = 0.0F, up = 0.0F;          ///< change of the inverse with both, 1/m/rad
-
-    /// m that a point lies behind it along its ray; 0 for rays that pass the plane by.
-    float behind(const AngularPoint& point) const {
-        const float here =
-            inverse + across * (point.azimuth - azimuth) + up * (point.elevation - elevation);
-        return here > 0.0F ? point.range - 1.0F / here : 0.0F;
-    }
-};
 
 /// The slopes (1/m/rad) that a surface through a cell may have along one axis: one to three.
 struct Slopes {
@@ -70,14 +50,15 @@ class MarginJudge {
     /// \param cross the slope along the other axis
     Slopes slopes(const CellWindow& window, std::uint32_t cell, Axis axis, float cross) const;
     /// Puts how far the window's points lie behind the plane into behind_.
-    Flattened flatten(const CellWindow& window, const Plane& plane);
+    Flattened flatten(const CellWindow& window, const AngularPlane& plane);
     /// How far the cell's own points lie behind the plane at most, m: a frontier behind that is
     /// not theirs.
-    float last_own(std::uint32_t cell, const Plane& plane) const;
+    float last_own(std::uint32_t cell, const AngularPlane& plane) const;
     /// How far from the frontier's centre its points may lie, m: the letter's deflation.
     float depth(const RangeMode& frontier) const;
-    bool has_points_at(std::uint32_t cell, const Plane& plane, const RangeMode& frontier) const;
-    bool keep(const CellWindow& window, std::uint32_t cell, const Plane& surface,
+    bool has_points_at(std::uint32_t cell, const AngularPlane& plane,
+                       const RangeMode& frontier) const;
+    bool keep(const CellWindow& window, std::uint32_t cell, const AngularPlane& surface,
               const RangeMode& frontier, std::vector<std::uint8_t>& marks);
 
     const AngularCells& cells_;
@@ -87,77 +68,6 @@ class MarginJudge {
     std::vector<float> behind_;      ///< m
     std::vector<AngularPoint> far_;  ///< of a window, those behind the frontier
 };
-
-/// The mean inverse range of points that lie on one plane, however slanted; 0 where they do not.
-float inverse_on_plane(const AngularPoint* first, const AngularPoint* last, const CellRanges& cell,
-                       float threshold) {
-    const auto size = static_cast<float>(last - first);
-    float mean = 0.0F;
-    for (const AngularPoint* p = first; p != last; ++p) mean += 1.0F / p->range;
-    mean /= size;
-    // Normal equations about the means, in milliradians lest they underflow.
-    constexpr float kScale = 1e3F;
-    float xx = 0.0F, xy = 0.0F, yy = 0.0F, xq = 0.0F, yq = 0.0F;
-    for (const AngularPoint* p = first; p != last; ++p) {
-        const float x = kScale * (p->azimuth - cell.azimuth);
-        const float y = kScale * (p->elevation - cell.elevation);
-        const float q = 1.0F / p->range - mean;
-        xx += x * x, xy += x * y, yy += y * y, xq += x * q, yq += y * q;
-    }
-    const float determinant = xx * yy - xy * xy;
-    if (!(determinant > 1e-6F * xx * yy)) return 0.0F;
-    const Plane plane{mean, cell.azimuth, cell.elevation,
-                      kScale * (xq * yy - yq * xy) / determinant,
-                      kScale * (yq * xx - xq * xy) / determinant};
-    for (const AngularPoint* p = first; p != last; ++p)
-        if (std::abs(plane.behind(*p)) > 0.5F * threshold) return 0.0F;
-    return mean;
-}
-
-/// The inverse of the nearest range at which a fifth of the points, and at least two, crowd.
-float inverse_of_front(const AngularPoint* first, const AngularPoint* last, float width,
-                       std::vector<float>& sorted) {
-    sorted.clear();
-    for (const AngularPoint* p = first; p != last; ++p) sorted.push_back(p->range);
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t needed = std::max<std::size_t>(2, (sorted.size() + 4) / 5);
-    std::size_t begin = 0;
-    while (begin + needed <= sorted.size() && sorted[begin + needed - 1] - sorted[begin] > width)
-        ++begin;
-    if (begin + needed > sorted.size()) begin = 0;
-    float sum = 0.0F;
-    std::size_t end = begin;
-    for (; end < sorted.size() && sorted[end] <= sorted[begin] + width; ++end)
-        sum += sorted[end] - sorted[begin];
-    return 1.0F / (sorted[begin] + sum / static_cast<float>(end - begin));
-}
-
-CellRanges cell_ranges(const AngularCells& cells, std::size_t cell, const MarginSettings& settings,
-                       std::vector<float>& sorted) {
-    const AngularPoint* first = cells.points().data() + cells.begin(cell);
-    const AngularPoint* last = cells.points().data() + cells.begin(cell + 1);
-    const auto size = static_cast<float>(last - first);
-    CellRanges result;
-    result.nearest = result.farthest = first->range;
-    float azimuth = 0.0F, elevation = 0.0F, range = 0.0F;
-    for (const AngularPoint* p = first; p != last; ++p) {
-        result.nearest = std::min(result.nearest, p->range);
-        result.farthest = std::max(result.farthest, p->range);
-        azimuth += p->azimuth - first->azimuth;
-        elevation += p->elevation - first->elevation;
-        range += p->range - first->range;
-    }
-    result.azimuth = first->azimuth + azimuth / size;
-    result.elevation = first->elevation + elevation / size;
-    if (result.farthest - result.nearest <= settings.threshold) {
-        result.inverse = 1.0F / (first->range + range / size);
-    } else {
-        result.inverse = inverse_on_plane(first, last, result, settings.threshold);
-        if (result.inverse == 0.0F)
-            result.inverse = inverse_of_front(first, last, 4.0F * settings.noise, sorted);
-    }
-    return result;
-}
 
 Slopes MarginJudge::slopes(const CellWindow& window, std::uint32_t cell, Axis axis,
                            float cross) const {
@@ -197,7 +107,7 @@ Slopes MarginJudge::slopes(const CellWindow& window, std::uint32_t cell, Axis ax
     return result;
 }
 
-MarginJudge::Flattened MarginJudge::flatten(const CellWindow& window, const Plane& plane) {
+MarginJudge::Flattened MarginJudge::flatten(const CellWindow& window, const AngularPlane& plane) {
     std::size_t count = 0;
     window.for_spans(settings_.reach,
                      [&](std::uint32_t first, std::uint32_t last) { count += last - first; });
@@ -237,12 +147,12 @@ bool MarginJudge::mark(const CellWindow& window, std::uint32_t cell,
                        std::vector<std::uint8_t>& marks) {
     if (!has_depth(window, cell)) return false;
     const CellRanges& own = ranges_[cell];
-    Plane plane{own.inverse, own.azimuth, own.elevation, 0.0F, 0.0F};
+    AngularPlane plane{own.inverse, own.azimuth, own.elevation, 0.0F, 0.0F};
     const float rough = slopes(window, cell, Axis::elevation, 0.0F).values[0];
     const Slopes across = slopes(window, cell, Axis::azimuth, rough);
     const Slopes up = slopes(window, cell, Axis::elevation, across.values[0]);
     std::optional<RangeMode> frontier;
-    Plane surface;
+    AngularPlane surface;
     for (std::size_t x = 0; x < across.count; ++x)
         for (std::size_t y = 0; y < up.count; ++y) {
             plane.across = across.values[x];
@@ -269,7 +179,7 @@ float MarginJudge::depth(const RangeMode& frontier) const {
     return settings_.deflation * std::max(frontier.deviation, 0.5F * settings_.noise);
 }
 
-bool MarginJudge::has_points_at(std::uint32_t cell, const Plane& plane,
+bool MarginJudge::has_points_at(std::uint32_t cell, const AngularPlane& plane,
                                 const RangeMode& frontier) const {
     const auto first = cells_.points().begin() + cells_.begin(cell);
     return std::any_of(first, first + cells_.count(cell), [&](const AngularPoint& point) {
@@ -277,14 +187,14 @@ bool MarginJudge::has_points_at(std::uint32_t cell, const Plane& plane,
     });
 }
 
-float MarginJudge::last_own(std::uint32_t cell, const Plane& plane) const {
+float MarginJudge::last_own(std::uint32_t cell, const AngularPlane& plane) const {
     float last = -kFar;
     for (std::uint32_t i = cells_.begin(cell); i < cells_.begin(cell + 1); ++i)
         last = std::max(last, plane.behind(cells_.points()[i]));
     return last;
 }
 
-bool MarginJudge::keep(const CellWindow& window, std::uint32_t cell, const Plane& surface,
+bool MarginJudge::keep(const CellWindow& window, std::uint32_t cell, const AngularPlane& surface,
                        const RangeMode& frontier, std::vector<std::uint8_t>& marks) {
     const AngularPoint* points = cells_.points().data();
     far_.clear();
@@ -317,9 +227,9 @@ MarginCounts mark_margin_points(const AngularCells& cells, const MarginSettings&
                                 const Run& run, std::vector<std::uint8_t>& marks) {
     std::vector<CellRanges> ranges(cells.size());
     for_pieces(run, cells.size(), 1024, [&](std::size_t first, std::size_t last) {
-        std::vector<float> sorted;
+        std::vector<float> scratch;
         for (std::size_t cell = first; cell < last; ++cell)
-            ranges[cell] = cell_ranges(cells, cell, settings, sorted);
+            ranges[cell] = cell_ranges(cells, cell, settings.threshold, settings.noise, scratch);
     });
     std::atomic<std::size_t> margin{0};
     for_pieces(run, cells.rows(), kRowsAtOnce, [&](std::size_t first, std::size_t last) {
