@@ -270,6 +270,17 @@ TEST_F(Claims, AFrameBeforeVersion2HasALabelAndATimeFirst) {
     }
 }
 
+// MRPT 2.5 reads two of its numbers as doubles.
+TEST_F(Claims, ParticlesOfAMovementOfVersion3) {
+    check_.begin_object();
+    header("mrpt::obs::CActionRobotMovement2D", 3);
+    expect_sound({number(0)});
+    header("mrpt::poses::CPose2D");
+    const std::string eight(8, '\x3F');
+    expect_sound({eight, eight, eight, byte_, number(1), huge_, huge_, huge_, eight, eight});
+    EXPECT_THAT(read(huge_), HasSubstr("it claims"));
+}
+
 TEST_F(Claims, ReadingsOfGasSensors) {
     begin("CObservationGasSensors");
     EXPECT_THAT(read(huge_), HasSubstr("it claims"));

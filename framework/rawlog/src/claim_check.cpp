@@ -88,7 +88,7 @@ constexpr std::array kPlaces = {
     Place{"", "CPose3DPDFSOG", "4", 24, Meaning::count},
     // Particles of a movement by the model of Thrun: 300 is usual, a million is too many.
     Place{"CActionRobotMovement2D", "CPose2D", "8+1x{7}4", 1024, Meaning::made, 4},
-    Place{"CActionRobotMovement2D", "CPose2D", "8+1x{6}4", 1024, Meaning::made, 0, 3},
+    Place{"CActionRobotMovement2D", "CPose2D", "8+1xxxx884", 1024, Meaning::made, 0, 3},
     Place{"", "CSimpleMap", "4", 4, Meaning::count},
     Place{"", "CSensoryFrame", "4", 2, Meaning::count, 2},
     Place{"", "CSensoryFrame", "x?84", 2, Meaning::count, 0, 1},
