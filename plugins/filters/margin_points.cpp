@@ -40,7 +40,7 @@ Where the letter is silent, or its cells alone do not do (docs/margin_points.md 
   more than one and a half times the beam's longer side.
 - **Threshold.** 0 derives it: six times the noise of ranges, which is the median over the cloud of how far points lie off local planes.
 - **Window.** A cell is judged together with the eight around it, but gives its own points only, and of these those that
-  have something behind the frontier within half a cell's diagonal and half the beam.
+  have something behind the frontier within half a cell's diagonal and a third of the beam.
 - **Slant.** Depth is measured along rays from a plane through the cell's frontier; its slope is what the cells two steps to
   either side tell. Where both sides bend away, the flatter side's counts; else an edge must be one with each slope. So
   floors and walls at grazing angles have none.
@@ -102,7 +102,7 @@ void MarginPoints::run(Run& run) {
     settings.reach = p_.window;
     settings.min_points = p_.min_points;
     settings.edge_reach =
-        static_cast<float>(std::sqrt(0.5) * cells.step() + 0.5 * p_.beam_deg * degree);
+        static_cast<float>(std::sqrt(0.5) * cells.step() + p_.beam_deg * degree / 3.0);
 
     std::vector<std::uint8_t> marks(cloud.size());
     const MarginCounts counts = mark_margin_points(cells, settings, run, marks);
