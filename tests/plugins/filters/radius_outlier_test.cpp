@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 #include "plugins/filters/cloud_samples.hpp"
@@ -63,27 +62,6 @@ Points clumps() {
                               testing::draw(engine, -size, size)});
     }
     return points;
-}
-
-TEST(RadiusOutlierStage, TheSameAsCountingAllPairs) {
-    const Points points = clumps();
-    for (const auto& [radius, enough] :
-         {std::pair(0.1, 1), std::pair(0.2, 6), std::pair(0.6, 40)}) {
-        std::vector<std::uint32_t> expected;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            int count = -1;  // itself
-            for (const auto& other : points)
-                if (std::hypot(double{points[i][0]} - double{other[0]},
-                               double{points[i][1]} - double{other[1]},
-                               double{points[i][2]} - double{other[2]}) < radius)
-                    ++count;
-            if (count >= enough) expected.push_back(i);
-        }
-        auto stage = ball(radius, enough);
-        EXPECT_EQ(kept_by(stage, points), expected) << radius;
-        EXPECT_GT(expected.size(), 0U);
-        EXPECT_LT(expected.size(), points.size());
-    }
 }
 
 TEST(RadiusOutlierStage, DoesWhatAllRemoversDo) {
