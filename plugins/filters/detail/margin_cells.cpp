@@ -40,17 +40,15 @@ class MarginJudge {
     bool mark(const CellWindow& window, std::uint32_t cell, std::vector<std::uint8_t>& marks);
 
    private:
-    /// How far a window's points lie behind a plane, m: the two nearest and the two farthest.
-    struct Flattened {
-        std::array<float, 2> nearest{kFar, kFar}, farthest{-kFar, -kFar};
-    };
-
+    /// Whether not only a few of the window's points, as flattened, are so: two, or one in 200.
+    template <class Condition>
+    bool enough(const Condition& condition) const;
     bool has_depth(const CellWindow& window, std::uint32_t cell) const;
     enum class Axis { azimuth, elevation };
     /// \param cross the slope along the other axis
     Slopes slopes(const CellWindow& window, std::uint32_t cell, Axis axis, float cross) const;
     /// Puts how far the window's points lie behind the plane into behind_.
-    Flattened flatten(const CellWindow& window, const AngularPlane& plane);
+    void flatten(const CellWindow& window, const AngularPlane& plane);
     /// How far the cell's own points lie behind the plane at most, m: a frontier behind that is
     /// not theirs.
     float last_own(std::uint32_t cell, const AngularPlane& plane) const;
@@ -107,28 +105,23 @@ Slopes MarginJudge::slopes(const CellWindow& window, std::uint32_t cell, Axis ax
     return result;
 }
 
-MarginJudge::Flattened MarginJudge::flatten(const CellWindow& window, const AngularPlane& plane) {
+void MarginJudge::flatten(const CellWindow& window, const AngularPlane& plane) {
     std::size_t count = 0;
     window.for_spans(settings_.reach,
                      [&](std::uint32_t first, std::uint32_t last) { count += last - first; });
     behind_.resize(count);
-    Flattened result;
     float* next = behind_.data();
     window.for_spans(settings_.reach, [&](std::uint32_t first, std::uint32_t last) {
         const AngularPoint* points = cells_.points().data();
         for (std::uint32_t i = first; i < last; ++i) *next++ = plane.behind(points[i]);
     });
-    for (const float range : behind_) {
-        if (range < result.nearest[1]) {
-            result.nearest[1] = std::max(range, result.nearest[0]);
-            result.nearest[0] = std::min(range, result.nearest[0]);
-        }
-        if (range > result.farthest[1]) {
-            result.farthest[1] = std::min(range, result.farthest[0]);
-            result.farthest[0] = std::max(range, result.farthest[0]);
-        }
-    }
-    return result;
+}
+
+template <class Condition>
+bool MarginJudge::enough(const Condition& condition) const {
+    std::uint32_t count = 0;
+    for (const float range : behind_) count += condition(range) ? 1U : 0U;
+    return count >= std::max<std::size_t>(2, behind_.size() / 200);
 }
 
 bool MarginJudge::has_depth(const CellWindow& window, std::uint32_t cell) const {
@@ -157,15 +150,19 @@ bool MarginJudge::mark(const CellWindow& window, std::uint32_t cell,
         for (std::size_t y = 0; y < up.count; ++y) {
             plane.across = across.values[x];
             plane.up = up.values[y];
-            const Flattened flat = flatten(window, plane);
-            if (flat.farthest[1] - flat.nearest[1] <= settings_.threshold) return false;
+            flatten(window, plane);
+            // The plane goes through the cell's own front: of two surfaces farther apart than the
+            // threshold one is half of it away.
+            const float half = 0.5F * settings_.threshold;
+            if (!enough([half](float range) { return std::abs(range) > half; })) return false;
             const auto mode =
                 nearest_mode(behind_, settings_.noise,
                              static_cast<std::size_t>(settings_.min_points), last_own(cell, plane));
             const bool likeliest = x == 0 && y == 0;  // the others can only object
             if (!mode && likeliest) return false;
             if (!mode) continue;
-            if (flat.farthest[1] <= mode->centre + settings_.threshold) return false;
+            const float limit = mode->centre + settings_.threshold;
+            if (!enough([limit](float range) { return range > limit; })) return false;
             if (!likeliest) continue;
             if (!has_points_at(cell, plane, *mode)) return false;
             frontier = mode;

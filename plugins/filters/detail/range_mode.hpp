@@ -20,8 +20,7 @@ struct RangeMode {
 /// of them lie within two standard deviations `noise` of it, and twice as many as a smear that goes
 /// on behind it (vacant points) would have there. None where there is no such place that begins
 /// before `last`.
-/// \param ranges m, in any order; sorted in place, and those that lie too far behind `last` to
-/// matter are dropped
+/// \param ranges m, in any order; put into another order
 std::optional<RangeMode> nearest_mode(std::vector<float>& ranges, float noise, std::size_t fewest,
                                       float last);
 
