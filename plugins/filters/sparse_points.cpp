@@ -21,7 +21,7 @@ The defaults suit margin points of a Mid-70: on a board's edge at 8 m, after 20 
 stray echo in the vacant space has none. After less than 5 s at 8 m lower `min_neighbours`.
 
 The points are sorted into cells of distance / sqrt(3), so the time grows linearly with the points: see
-`filter.radius_outlier`, which is the same for whole clouds, with the radius itself counted in.)");
+`filter.radius_outlier`, which is the same for whole clouds.)");
     s.role("outlier_remover");
     s.reads<Cloud>("cloud", "margin points in the LiDAR frame");
     s.writes<Cloud>("cloud", "the points that stay, in their order");

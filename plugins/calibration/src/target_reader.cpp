@@ -95,7 +95,7 @@ Polygon read_polygon(const JsonValue& node) {
 
 Eigen::Vector3d read_colour(const JsonValue& node) {
     if (!node.is_list()) return Eigen::Vector3d::Constant(node.number(0.0, 1.0, "1"));
-    const Eigen::Vector3d colour = node.vector3();
+    Eigen::Vector3d colour = node.vector3();
     if (colour.minCoeff() < 0.0 || colour.maxCoeff() > 1.0)
         node.fail("must be red, green and blue from 0 to 1");
     return colour;

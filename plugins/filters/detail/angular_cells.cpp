@@ -12,10 +12,12 @@
 #include <limits>
 #include <utility>
 
+#include "petal/calibration/angles.hpp"
+
 namespace petal {
 namespace {
 
-constexpr float kPi = 3.14159265F;
+constexpr auto kHalfTurn = static_cast<float>(kPi);
 constexpr std::size_t kBlock = 16384;  ///< points that one task takes
 constexpr std::size_t kMostBlocks = 64;
 
@@ -36,8 +38,8 @@ float angle_of(float y, float x) {
     p = p * u - 0.333318127F;
     p = p * u + 0.999999882F;
     float angle = p * t;
-    angle = ay > ax ? 0.5F * kPi - angle : angle;
-    angle = x < 0.0F ? kPi - angle : angle;
+    angle = ay > ax ? 0.5F * kHalfTurn - angle : angle;
+    angle = x < 0.0F ? kHalfTurn - angle : angle;
     return y < 0.0F ? -angle : angle;
 }
 
@@ -80,7 +82,7 @@ std::vector<AngularPoint> angular_points(const mrpt::maps::CPointsMapXYZI& point
 }
 
 double angular_density(const std::vector<AngularPoint>& points) {
-    constexpr float kCell = kPi / 180.0F;
+    constexpr float kCell = kHalfTurn / 180.0F;
     constexpr std::size_t kColumns = 362, kRows = 182;
     constexpr std::size_t kAsked = 200000;  // enough for a median of counts
     const std::size_t stride = std::max<std::size_t>(1, points.size() / kAsked);
@@ -89,8 +91,8 @@ double angular_density(const std::vector<AngularPoint>& points) {
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const AngularPoint& p = points[i];
         if (std::isnan(p.range)) continue;
-        const auto row = static_cast<std::size_t>((p.elevation + 0.5F * kPi) / kCell + 0.5F);
-        const auto column = static_cast<std::size_t>((p.azimuth + kPi) / kCell + 0.5F);
+        const auto row = static_cast<std::size_t>((p.elevation + 0.5F * kHalfTurn) / kCell + 0.5F);
+        const auto column = static_cast<std::size_t>((p.azimuth + kHalfTurn) / kCell + 0.5F);
         ++counts[std::min(row, kRows - 1) * kColumns + std::min(column, kColumns - 1)];
         ++taken;
     }
@@ -111,18 +113,19 @@ AngularCells::AngularCells(const std::vector<AngularPoint>& points, double step,
 }
 
 std::uint32_t AngularCells::row_of(const AngularPoint& point) const {
-    return static_cast<std::uint32_t>((point.elevation + 0.5F * kPi) / static_cast<float>(step_));
+    return static_cast<std::uint32_t>((point.elevation + 0.5F * kHalfTurn) /
+                                      static_cast<float>(step_));
 }
 
 std::uint32_t AngularCells::column_of(const AngularPoint& point) const {
-    return static_cast<std::uint32_t>((point.azimuth + kPi) / static_cast<float>(step_));
+    return static_cast<std::uint32_t>((point.azimuth + kHalfTurn) / static_cast<float>(step_));
 }
 
 std::vector<std::uint32_t> AngularCells::sort_rows(const std::vector<AngularPoint>& points,
                                                    const Run& run) {
     // A counting sort: each block of points counts its rows, a running sum over rows, then blocks,
     // gives every block its places, and each block puts its points there.
-    const auto rows = static_cast<std::size_t>(kPi / static_cast<float>(step_)) + 2;
+    const auto rows = static_cast<std::size_t>(kHalfTurn / static_cast<float>(step_)) + 2;
     const std::size_t blocks = std::clamp<std::size_t>(points.size() / kBlock, 1, kMostBlocks);
     const auto first_of = [&](std::size_t block) { return points.size() * block / blocks; };
     std::vector<std::uint32_t> places(blocks * rows);

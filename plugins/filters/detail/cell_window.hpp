@@ -62,7 +62,7 @@ class CellWindow {
 
    private:
     static constexpr std::size_t kSide = 2 * kReach + 1;
-    static std::size_t at(int offset) { return static_cast<std::size_t>(offset + kReach); }
+    static std::size_t at(std::int64_t offset) { return static_cast<std::size_t>(offset + kReach); }
 
     const AngularCells& cells_;
     std::array<std::uint32_t, kSide> next_{}, end_{};

@@ -74,7 +74,8 @@ const std::vector<SpaceCells::Points>& SpaceCells::Around::of(std::size_t cell) 
     const std::vector<Cell>& cells = cells_->cells_;
     const auto [x, y, z] = cells[cell].place;
     const bool first = next_.empty();
-    if (first) next_.resize(static_cast<std::size_t>((2 * reach_ + 1) * (2 * reach_ + 1)));
+    const auto side = 2 * static_cast<std::size_t>(reach_) + 1;
+    if (first) next_.resize(side * side);
     auto next = next_.begin();
     for (std::int32_t i = x - reach_; i <= x + reach_; ++i)
         for (std::int32_t j = y - reach_; j <= y + reach_; ++j, ++next) {
