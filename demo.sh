@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: 2026 the petal authors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Installs what is missing, builds, simulates a capture as a recorder would write it, calibrates camera and LiDAR on the
-# letter's indoor scene, and says where the results lie. The real data are read from PETAL_REAL_DATA or ../shared/data;
-# where they are absent, a synthetic scene of the same form is made and used instead. Exits 0 when the runs themselves
-# went well, whatever the verdict.
+# Installs what is missing, builds, simulates a recording of four boards, calibrates camera and LiDAR from its raw points,
+# and says how far that is from the truth and where the results lie. Where there are real data (PETAL_REAL_DATA, or
+# ../shared/data) the letter's indoor scene is calibrated too. Exits 0 when the runs themselves went well, whatever the
+# verdict.
 set -euo pipefail
 data=$(realpath -m "${PETAL_REAL_DATA:-$(dirname "$0")/../shared/data}")/sjtu_indoor
 cd "$(dirname "$0")"
@@ -14,21 +14,25 @@ scripts/install_packages.sh
 echo "building"
 scripts/build.sh petal_runtime
 
-echo "simulating a capture: a Livox Mid-70, a camera, a board on the floor"
-build/bin/petal run pipelines/simulate.json --out runs/simulated --force --quiet
-build/bin/petal inspect runs/simulated/scene.rawlog
+# 4 says that it ran and the result is weak or not usable: an honest answer, not a failure of the demo.
+calibrate() {
+    local code=0
+    build/bin/petal run "$@" --force || code=$?
+    [ "$code" -eq 0 ] || [ "$code" -eq 4 ] || exit "$code"
+}
+recording=runs/demo_recording
+echo "simulating a recording: a Livox Mid-70, a camera, four boards in a room"
+build/bin/petal run pipelines/simulate.json --set 'scene.scenes=["indoor_four_boards"]' --out "$recording" --force --quiet \
+    >build/demo.log || { cat build/demo.log >&2; exit 1; }
+build/bin/petal inspect "$recording/scene.rawlog"
+echo "calibrating from its raw points"
+calibrate pipelines/letter.json --data "$recording" --out runs/demo
+echo "against the truth:"
+grep -E '"truth\.(rotation_deg|translation_m|drift_px)"' runs/demo/result.json
+echo "overlay picture: $(find "$PWD/runs/demo/stages/overlay" -name '*.png' | head -n 1)"
 
 if [ -e "$data/lidar_margin_points.csv" ]; then
     echo "calibrating on the letter's indoor scene, $data"
-else
-    data=build/synthetic_scene
-    build/bin/petal_synthetic_scene "$data"
-    echo "no real data (set PETAL_REAL_DATA): calibrating on a synthetic scene, $data"
+    calibrate pipelines/letter_indoor.json --data "$data" --out runs/demo_indoor
+    echo "overlay picture: $(find "$PWD/runs/demo_indoor/stages/overlay" -name '*.png' | head -n 1)"
 fi
-
-code=0
-build/bin/petal run pipelines/letter_indoor.json --data "$data" --out runs/demo --force || code=$?
-# 4 says that it ran and the result is weak or not usable: an honest answer, not a failure of the demo.
-[ "$code" -eq 0 ] || [ "$code" -eq 4 ] || exit "$code"
-echo "recording with its truth: $PWD/runs/simulated (scene.rawlog, truth.json, labels.u8)"
-echo "overlay picture: $(find "$PWD/runs/demo/stages/overlay" -name '*.png' | head -n 1)"
