@@ -10,6 +10,7 @@
 #include <regex>
 #include <utility>
 
+#include "jpeg_check.hpp"
 #include "rawlog_class.hpp"
 
 namespace petal {
@@ -185,6 +186,14 @@ bool ClaimCheck::is_header(const void* bytes, std::size_t count) {
     return true;
 }
 
+bool ClaimCheck::is_jpeg(std::size_t count) const {
+    // Two flags, width, height, and the number of bytes, which follow in one read. (Grey pixels as
+    // they are have one number more between; four bytes are no JPEG.)
+    return last_ == "CImage" && reads_.size() == 5 && reads_.compare(0, 2, "11") == 0 &&
+           (reads_[3] == '4' || reads_[3] == '0') && reads_[4] == '4' && count == value_ &&
+           count > 4;
+}
+
 std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::uint64_t can_follow) {
     if (is_header(bytes, count)) return problem_;
     // A header is the length of the name, with a flag; before 2008 without, and of four bytes.
@@ -198,6 +207,9 @@ std::string ClaimCheck::after_read(const void* bytes, std::size_t count, std::ui
     }
     constexpr std::size_t kMostReads = 1100;  // 255 layers; no count of ours stands further on
     if (last_.empty() || reads_.size() > kMostReads) return {};
+    if (is_jpeg(count))
+        if (const std::string problem = jpeg_problem(bytes, count); !problem.empty())
+            return "an image in it is no JPEG that can be decoded (" + problem + ")";
     reads_ += token(bytes, count);
     if (count != 2 && count != 4) return {};
     previous_ = value_;

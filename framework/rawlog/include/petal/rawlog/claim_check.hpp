@@ -24,6 +24,8 @@ class ClaimCheck {
 
    private:
     bool is_header(const void* bytes, std::size_t count);
+    /// Whether a read of so many bytes is that of a picture in JPEG, by the reads before it.
+    bool is_jpeg(std::size_t count) const;
 
     std::string outer_;            ///< class of the object; in a frame or collection, of its part
     std::string last_;             ///< class of the last header, without its namespace
