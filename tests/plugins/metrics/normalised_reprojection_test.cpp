@@ -71,9 +71,9 @@ StageHarness metric_of(const std::vector<Correspondences>& scenes, Extrinsics po
     return stage;
 }
 
-std::optional<double> told(const StageHarness& stage, const std::string& name,
-                           const std::string& scene = "",
-                           const std::string& group = "normalised_reprojection.") {
+std::optional<double> told_of(const StageHarness& stage, const std::string& name,
+                              const std::string& scene = "",
+                              const std::string& group = "normalised_reprojection.") {
     for (const Metric& metric : stage.out<Metrics>("metrics").values)
         if (metric.name == group + name && metric.scene == scene) return metric.value;
     return std::nullopt;
@@ -87,23 +87,23 @@ TEST(NormalisedReprojectionMetric, TableTwoByHand) {
     auto stage = metric_of({seen(kFour)});
     stage.set("expected_corners", 4).fire();
     for (const char* scene : {"", "a"}) {
-        EXPECT_EQ(told(stage, "count", scene), 4.0);
-        EXPECT_EQ(told(stage, "expected", scene), 4.0);
-        EXPECT_EQ(told(stage, "largest_range", scene), 8.0);
+        EXPECT_EQ(told_of(stage, "count", scene), 4.0);
+        EXPECT_EQ(told_of(stage, "expected", scene), 4.0);
+        EXPECT_EQ(told_of(stage, "largest_range", scene), 8.0);
         // Normalised: 1.5, 2; 0, 12; 0.5, 0.75; 10, 5. Their sum is 31.75.
-        EXPECT_NEAR(*told(stage, "mean_px", scene), 31.75 / 8.0, 1e-12);
+        EXPECT_NEAR(*told_of(stage, "mean_px", scene), 31.75 / 8.0, 1e-12);
         const double squares = 1.5 * 1.5 + 4.0 + 144.0 + 0.25 + 0.75 * 0.75 + 100.0 + 25.0;
-        EXPECT_NEAR(*told(stage, "deviation_px", scene),
+        EXPECT_NEAR(*told_of(stage, "deviation_px", scene),
                     std::sqrt(squares / 8.0 - std::pow(31.75 / 8.0, 2)), 1e-12);
-        EXPECT_DOUBLE_EQ(*told(stage, "below_1px_share", scene), 3.0 / 8.0);
-        EXPECT_DOUBLE_EQ(*told(stage, "below_5px_share", scene), 5.0 / 8.0);   // 5 is not below 5
-        EXPECT_DOUBLE_EQ(*told(stage, "below_10px_share", scene), 6.0 / 8.0);  // nor 10 below 10
+        EXPECT_DOUBLE_EQ(*told_of(stage, "below_1px_share", scene), 3.0 / 8.0);
+        EXPECT_DOUBLE_EQ(*told_of(stage, "below_5px_share", scene), 5.0 / 8.0);  // 5 is not below 5
+        EXPECT_DOUBLE_EQ(*told_of(stage, "below_10px_share", scene), 6.0 / 8.0);  // nor 10 below 10
         // In two dimensions: 2.5, 12, 0.9014, 11.1803.
-        EXPECT_NEAR(*told(stage, "norm_mean_px", scene),
+        EXPECT_NEAR(*told_of(stage, "norm_mean_px", scene),
                     (2.5 + 12.0 + std::hypot(0.5, 0.75) + std::hypot(10.0, 5.0)) / 4.0, 1e-12);
-        EXPECT_DOUBLE_EQ(*told(stage, "norm_below_1px_share", scene), 0.25);
-        EXPECT_DOUBLE_EQ(*told(stage, "norm_below_5px_share", scene), 0.5);
-        EXPECT_DOUBLE_EQ(*told(stage, "norm_below_10px_share", scene), 0.5);
+        EXPECT_DOUBLE_EQ(*told_of(stage, "norm_below_1px_share", scene), 0.25);
+        EXPECT_DOUBLE_EQ(*told_of(stage, "norm_below_5px_share", scene), 0.5);
+        EXPECT_DOUBLE_EQ(*told_of(stage, "norm_below_10px_share", scene), 0.5);
     }
     EXPECT_TRUE(stage.notes().empty());
 }
@@ -115,12 +115,12 @@ TEST(NormalisedReprojectionMetric, ItsMeanIsThatOfTheReprojectionMetric) {
     auto other = metric_of<ReprojectionMetric>(scenes);
     other.fire();
     for (const char* scene : {"", "a", "b"})
-        EXPECT_EQ(told(stage, "mean_px", scene),
-                  told(other, "normalised_px", scene, "reprojection."));
+        EXPECT_EQ(told_of(stage, "mean_px", scene),
+                  told_of(other, "normalised_px", scene, "reprojection."));
     // The second scene's corner is the farthest of all: in total the first four count half.
-    EXPECT_NEAR(*told(stage, "mean_px"), (31.75 / 2.0 + 3.0) / 10.0, 1e-12);
-    EXPECT_EQ(told(stage, "largest_range"), 16.0);
-    EXPECT_EQ(told(stage, "largest_range", "a"), 8.0);
+    EXPECT_NEAR(*told_of(stage, "mean_px"), (31.75 / 2.0 + 3.0) / 10.0, 1e-12);
+    EXPECT_EQ(told_of(stage, "largest_range"), 16.0);
+    EXPECT_EQ(told_of(stage, "largest_range", "a"), 8.0);
 }
 
 TEST(NormalisedReprojectionMetric, CornersThatWereNotFoundAreBeyondTenPixels) {
@@ -129,21 +129,21 @@ TEST(NormalisedReprojectionMetric, CornersThatWereNotFoundAreBeyondTenPixels) {
     auto stage = metric_of({seen(good), seen({})});
     stage.give<Truth>("truth", boards(2), "a").give<Truth>("truth", boards(2), "b");
     stage.fire();
-    EXPECT_EQ(told(stage, "count"), 16.0);
-    EXPECT_EQ(told(stage, "expected"), 64.0);
-    EXPECT_DOUBLE_EQ(*told(stage, "below_10px_share"), 0.25);
-    EXPECT_DOUBLE_EQ(*told(stage, "norm_below_1px_share"), 0.25);
-    EXPECT_DOUBLE_EQ(*told(stage, "below_1px_share", "a"), 0.5);
-    EXPECT_DOUBLE_EQ(*told(stage, "below_10px_share", "b"), 0.0);
-    EXPECT_FALSE(told(stage, "mean_px", "b"));
-    EXPECT_DOUBLE_EQ(*told(stage, "mean_px"), 0.5);
+    EXPECT_EQ(told_of(stage, "count"), 16.0);
+    EXPECT_EQ(told_of(stage, "expected"), 64.0);
+    EXPECT_DOUBLE_EQ(*told_of(stage, "below_10px_share"), 0.25);
+    EXPECT_DOUBLE_EQ(*told_of(stage, "norm_below_1px_share"), 0.25);
+    EXPECT_DOUBLE_EQ(*told_of(stage, "below_1px_share", "a"), 0.5);
+    EXPECT_DOUBLE_EQ(*told_of(stage, "below_10px_share", "b"), 0.0);
+    EXPECT_FALSE(told_of(stage, "mean_px", "b"));
+    EXPECT_DOUBLE_EQ(*told_of(stage, "mean_px"), 0.5);
     EXPECT_TRUE(stage.notes().empty());
 
     // The parameter is for each camera too, and goes before the truth.
     stage.set("expected_corners", 32).fire();
-    EXPECT_EQ(told(stage, "expected"), 64.0);
+    EXPECT_EQ(told_of(stage, "expected"), 64.0);
     stage.set("expected_corners", 16).fire();
-    EXPECT_EQ(told(stage, "expected"), 32.0);
+    EXPECT_EQ(told_of(stage, "expected"), 32.0);
 }
 
 TEST(NormalisedReprojectionMetric, EveryCameraHasToFindThem) {
@@ -151,9 +151,9 @@ TEST(NormalisedReprojectionMetric, EveryCameraHasToFindThem) {
     two.cameras.push_back(seen({}, "REAR").cameras.front());
     auto stage = metric_of({two, Correspondences{}});
     stage.set("expected_corners", 2).fire();
-    EXPECT_EQ(told(stage, "expected", "a"), 4.0);
-    EXPECT_DOUBLE_EQ(*told(stage, "below_1px_share", "a"), 0.25);
-    EXPECT_EQ(told(stage, "expected", "b"), 2.0);  // no camera at all
+    EXPECT_EQ(told_of(stage, "expected", "a"), 4.0);
+    EXPECT_DOUBLE_EQ(*told_of(stage, "below_1px_share", "a"), 0.25);
+    EXPECT_EQ(told_of(stage, "expected", "b"), 2.0);  // no camera at all
 }
 
 TEST(NormalisedReprojectionMetric, PairsThatCannotBeMeasuredAreBeyondTenPixels) {
@@ -163,9 +163,9 @@ TEST(NormalisedReprojectionMetric, PairsThatCannotBeMeasuredAreBeyondTenPixels) 
         seen({missed_by(0, 0, 4.0), missed_by(0, 0, 4.0)}, "REAR").cameras.front());
     auto stage = metric_of({scene});
     stage.fire();
-    EXPECT_EQ(told(stage, "count"), 1.0);
-    EXPECT_EQ(told(stage, "expected"), 4.0);
-    EXPECT_DOUBLE_EQ(*told(stage, "below_10px_share"), 0.25);
+    EXPECT_EQ(told_of(stage, "count"), 1.0);
+    EXPECT_EQ(told_of(stage, "expected"), 4.0);
+    EXPECT_DOUBLE_EQ(*told_of(stage, "below_10px_share"), 0.25);
     ASSERT_EQ(stage.notes().size(), 2U);
     EXPECT_THAT(stage.notes()[0].nearest_miss, HasSubstr("1 measured, 1 do not project, 2 of"));
     EXPECT_THAT(stage.notes()[1].nearest_miss, HasSubstr("not known for 1 of 1 scenes"));
@@ -174,13 +174,13 @@ TEST(NormalisedReprojectionMetric, PairsThatCannotBeMeasuredAreBeyondTenPixels) 
 TEST(NormalisedReprojectionMetric, RealDataHaveNoTruth) {
     auto stage = metric_of({seen(kFour)});
     stage.give<Truth>("truth", Truth{}, "a").fire();
-    EXPECT_EQ(told(stage, "expected"), 4.0);
+    EXPECT_EQ(told_of(stage, "expected"), 4.0);
     EXPECT_EQ(stage.notes().size(), 1U);
 
     auto nothing = metric_of({seen({})}, Extrinsics{});
     nothing.fire();
-    EXPECT_EQ(told(nothing, "expected"), 0.0);
-    EXPECT_FALSE(told(nothing, "below_10px_share"));
+    EXPECT_EQ(told_of(nothing, "expected"), 0.0);
+    EXPECT_FALSE(told_of(nothing, "below_10px_share"));
     EXPECT_EQ(nothing.notes().size(), 2U);
 }
 
