@@ -91,8 +91,9 @@ double angular_density(const std::vector<AngularPoint>& points) {
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const AngularPoint& p = points[i];
         if (std::isnan(p.range)) continue;
-        const auto row = static_cast<std::size_t>((p.elevation + 0.5F * kHalfTurn) / kCell + 0.5F);
-        const auto column = static_cast<std::size_t>((p.azimuth + kHalfTurn) / kCell + 0.5F);
+        const auto row =
+            static_cast<std::size_t>(std::lround((p.elevation + 0.5F * kHalfTurn) / kCell));
+        const auto column = static_cast<std::size_t>(std::lround((p.azimuth + kHalfTurn) / kCell));
         ++counts[std::min(row, kRows - 1) * kColumns + std::min(column, kColumns - 1)];
         ++taken;
     }
