@@ -21,6 +21,7 @@ CMAKE_OPTIONS="-DPETAL_SANITIZE=$sanitizers -DCMAKE_BUILD_TYPE=Debug -DPETAL_WER
 
 # Debian's libraries are built without: a report must come from petal's own code.
 export TSAN_OPTIONS="suppressions=$PWD/scripts/checks/thread.supp ignore_noninstrumented_modules=1 halt_on_error=1 second_deadlock_stack=1"
+export LSAN_OPTIONS="suppressions=$PWD/scripts/checks/leak.supp print_suppressions=0"
 export ASAN_OPTIONS="detect_stack_use_after_return=1" UBSAN_OPTIONS="print_stacktrace=1"
 if [ "$sanitizers" = thread ]; then
     # Its stage uses an algorithm of oneTBB, one half of which is in the library and one in headers: TSan sees races in it.
