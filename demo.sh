@@ -28,7 +28,7 @@ build/bin/petal inspect "$recording/scene.rawlog"
 echo "calibrating from its raw points"
 calibrate pipelines/letter.json --data "$recording" --out runs/demo
 echo "against the truth:"
-grep -E '"truth\.(rotation_deg|translation_m|drift_px)"' runs/demo/result.json
+grep -m 3 -E '"truth\.(rotation_deg|translation_m|drift_px)"' runs/demo/result.json
 echo "overlay picture: $(find "$PWD/runs/demo/stages/overlay" -name '*.png' | head -n 1)"
 
 if [ -e "$data/lidar_margin_points.csv" ]; then
