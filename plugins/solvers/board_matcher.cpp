@@ -226,8 +226,11 @@ CameraPairs BoardMatcher::match(Run& run, const LidarBoards& lidar, const ImageB
     result.order = choice->decision;
     for (const RefinedPose& pose : choice->order.poses)
         result.initial.push_back(pose.T_camera_lidar);
-    for (const BoardMatch& match : choice->order.matches)
-        result.boards.push_back({match.lidar, index[static_cast<std::size_t>(match.image)]});
+    for (const BoardMatch& match : choice->order.matches) {
+        CameraPairs::BoardPair& pair = result.boards.emplace_back();
+        pair.lidar = match.lidar;
+        pair.image = index[static_cast<std::size_t>(match.image)];
+    }
     add_lidar_noise(model, lidar.boards, *choice, result.pairs);
     doubt_what_is_no_noise(model, *choice, result);
 

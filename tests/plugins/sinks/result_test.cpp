@@ -53,7 +53,9 @@ struct Example {
         CameraPairs camera;
         camera.camera = "CAMERA";
         camera.lidar = "LIDAR";
-        camera.boards.push_back({1, 0});
+        camera.boards.emplace_back();
+        camera.boards.back().lidar = 1;
+        camera.boards.back().image = 0;
         for (int corner = 15; corner >= 0; --corner) {
             PointPair pair;
             pair.board = 0;

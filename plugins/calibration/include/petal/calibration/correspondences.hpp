@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,8 @@ struct OrderDecision {
 
 /// The pairs of one scene and one camera.
 struct CameraPairs {
+    std::uint64_t scene = 0;  ///< frame number
+    std::string scene_name;
     std::string camera;  ///< label
     std::string lidar;   ///< label
     mrpt::img::TCamera model;
@@ -54,17 +58,23 @@ struct CameraPairs {
     OrderDecision order;
     /// Poses T_camera_lidar that the matcher found, the best first; a solver may start from them.
     std::vector<Eigen::Isometry3d> initial;
-    /// For each board pair: index in LidarBoards::boards and ImageBoards::boards of this scene.
+    /// A board that both sensors see. Its pairs are those with its index as PointPair::board.
     struct BoardPair {
-        int lidar = -1;
-        int image = -1;
+        int lidar = -1;  ///< index in LidarBoards::boards of this scene
+        int image = -1;  ///< index in ImageBoards::boards of this scene
+        /// Turned so that the board's corners have the order that the camera sees.
+        Eigen::Isometry3d T_lidar_board = Eigen::Isometry3d::Identity();
+        std::optional<Matrix6d> pose_covariance;     ///< LidarBoard::covariance
+        std::vector<Eigen::Vector3d> corners_board;  ///< Target::corners() in the board frame, m
+        std::vector<Eigen::Vector2d> corners_image;  ///< raw pixels, as corners_board
+        Eigen::MatrixXd image_covariance;            ///< of them together, 2N x 2N, px^2
     };
     std::vector<BoardPair> boards;
 };
 
 struct Correspondences {
-    std::vector<CameraPairs>
-        cameras;  ///< one for each camera of the scene, also those without a pair
+    /// One for each scene and camera, also those without a pair. A packet holds one scene or all.
+    std::vector<CameraPairs> cameras;
 };
 
 template <>

@@ -9,11 +9,13 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/correspondences.hpp"
+#include "petal/calibration/diagnosis.hpp"
 #include "petal/packet.hpp"
 #include "petal/run.hpp"
 
@@ -43,6 +45,7 @@ struct CameraExtrinsics {
     int degrees_of_freedom = 0;
     std::vector<Residual> residuals;
     OrderDecision order;
+    std::optional<Diagnosis> diagnosis;  ///< of solvers that look into their result
 };
 
 struct Extrinsics {

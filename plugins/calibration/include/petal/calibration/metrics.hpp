@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "petal/packet.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -20,8 +21,15 @@ struct Metric {
     std::string scene;  ///< empty for the total
 };
 
+/// What a check found: a result may be of no higher level, and this is why.
+struct Finding {
+    Level level = Level::weak;
+    std::string reason;  ///< plain words, naming scene, board or camera
+};
+
 struct Metrics {
     std::vector<Metric> values;
+    std::vector<Finding> findings;  ///< sink.result lowers the verdict by them
 };
 
 template <>
