@@ -34,7 +34,7 @@ struct LidarBoards {
     std::string lidar;  ///< sensor label
     std::vector<LidarBoard> boards;
     /// What casts doubt on the target, the data or the boards, in words for the verdict's reasons.
-    std::vector<std::string> findings;
+    std::vector<std::string> findings = {};
 };
 
 /// A board as one camera sees it, row by row from the top left in the image.
@@ -45,7 +45,7 @@ struct ImageBoard {
     std::vector<Eigen::Matrix2d> covariance;  ///< of each corner, px^2
     /// Of all corners together, 2N x 2N, u0 v0 u1 v1 ..., px^2: corners share the lines they are
     /// cut from. Empty where the detector does not know it.
-    Eigen::MatrixXd joint_covariance;
+    Eigen::MatrixXd joint_covariance = {};
     std::map<std::string, double> quality;
 };
 
@@ -58,7 +58,7 @@ struct CameraInfo {
 struct ImageBoards {
     std::vector<CameraInfo> cameras;
     std::vector<ImageBoard> boards;
-    std::vector<std::string> findings;  ///< as those of LidarBoards
+    std::vector<std::string> findings = {};  ///< as those of LidarBoards
 };
 
 template <>

@@ -45,7 +45,7 @@ struct CameraExtrinsics {
     int degrees_of_freedom = 0;
     std::vector<Residual> residuals;
     OrderDecision order;
-    std::optional<Diagnosis> diagnosis;  ///< of solvers that look into their result
+    std::optional<Diagnosis> diagnosis = {};  ///< of solvers that look into their result
 };
 
 struct Extrinsics {

@@ -29,7 +29,7 @@ struct Finding {
 
 struct Metrics {
     std::vector<Metric> values;
-    std::vector<Finding> findings;  ///< sink.result lowers the verdict by them
+    std::vector<Finding> findings = {};  ///< sink.result lowers the verdict by them
 };
 
 template <>
