@@ -64,10 +64,11 @@ struct CameraPairs {
         int image = -1;  ///< index in ImageBoards::boards of this scene
         /// Turned so that the board's corners have the order that the camera sees.
         Eigen::Isometry3d T_lidar_board = Eigen::Isometry3d::Identity();
-        std::optional<Matrix6d> pose_covariance;     ///< LidarBoard::covariance
-        std::vector<Eigen::Vector3d> corners_board;  ///< Target::corners() in the board frame, m
-        std::vector<Eigen::Vector2d> corners_image;  ///< raw pixels, as corners_board
-        Eigen::MatrixXd image_covariance;            ///< of them together, 2N x 2N, px^2
+        std::optional<Matrix6d> pose_covariance = {};  ///< LidarBoard::covariance
+        std::vector<Eigen::Vector3d> corners_board =
+            {};  ///< Target::corners() in the board frame, m
+        std::vector<Eigen::Vector2d> corners_image = {};  ///< raw pixels, as corners_board
+        Eigen::MatrixXd image_covariance = {};            ///< of them together, 2N x 2N, px^2
     };
     std::vector<BoardPair> boards;
 };
