@@ -5,6 +5,7 @@
 
 #include "metrics/labels.hpp"
 #include "metrics/normalised_reprojection.hpp"
+#include "metrics/plane_points.hpp"
 #include "metrics/reprojection.hpp"
 #include "metrics/truth.hpp"
 #include "petal/calibration/metrics.hpp"
@@ -12,6 +13,7 @@
 PETAL_PLUGIN("metrics", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::LabelsMetric>("metric.labels");
     r.add<petal::NormalisedReprojectionMetric>("metric.normalised_reprojection");
+    r.add<petal::PlanePointsMetric>("metric.plane_points");
     r.add<petal::ReprojectionMetric>("metric.reprojection");
     r.add<petal::TruthMetric>("metric.truth");
 });

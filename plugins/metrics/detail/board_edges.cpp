@@ -50,7 +50,7 @@ const Target& TargetsByName::find(const std::string& name, Run& run) {
         run.used_file(find_target_file(name));
         return known_.emplace(name, std::move(target)).first->second;
     } catch (const Error& error) {
-        throw Error("the truth tells of a board '" + name + "' whose edges are not known: " +
+        throw Error("the data tell of a board '" + name + "' whose edges are not known: " +
                     error.what() + "; name its file in the parameter 'targets'");
     }
 }
@@ -61,8 +61,15 @@ BoardEdges::BoardEdges(const std::vector<Truth::Board>& boards, TargetsByName& t
 }
 
 double BoardEdges::distance(const Eigen::Vector3d& point) const {
-    double nearest_board = kFar, distance = kFar;
-    for (const Board& board : boards_) {
+    const Place found = place(point);
+    return found.board < 0 ? kFar : found.edge;
+}
+
+BoardEdges::Place BoardEdges::place(const Eigen::Vector3d& point) const {
+    Place found;
+    double nearest_board = kFar;
+    for (std::size_t i = 0; i < boards_.size(); ++i) {
+        const Board& board = boards_[i];
         const Eigen::Vector3d p = board.T_board_lidar * point;
         const double to_side = to_nearest_side(board.target, p.head<2>());
         const double aside = on_plate(board.target, p.head<2>()) ? 0.0 : to_side;
@@ -70,9 +77,31 @@ double BoardEdges::distance(const Eigen::Vector3d& point) const {
         const double to_board = std::hypot(aside, before);
         if (!p.allFinite() || to_board >= nearest_board) continue;
         nearest_board = to_board;
-        distance = to_side;
+        found.board = static_cast<int>(i);
+        found.edge = to_side;
+        found.away =
+            std::hypot(inside_polygon(board.target.outline, p.head<2>()) ? 0.0 : aside, before);
     }
-    return distance;
+    if (found.board < 0) return found;
+    const Board& board = boards_[static_cast<std::size_t>(found.board)];
+    const Eigen::Vector2d p = (board.T_board_lidar * point).head<2>();
+    found.to_hole_side = kFar;
+    int side = 0;
+    for (const auto& hole : board.target.holes)
+        for (std::size_t i = 0; i < hole.size(); ++i, ++side) {
+            const double distance = distance_to_polygon({hole[i], hole[(i + 1) % hole.size()]}, p);
+            if (distance >= found.to_hole_side) continue;
+            found.to_hole_side = distance;
+            found.hole_side = side;
+        }
+    return found;
+}
+
+int BoardEdges::hole_sides(int board) const {
+    int sides = 0;
+    for (const auto& hole : boards_[static_cast<std::size_t>(board)].target.holes)
+        sides += static_cast<int>(hole.size());
+    return sides;
 }
 
 }  // namespace petal

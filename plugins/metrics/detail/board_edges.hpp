@@ -42,6 +42,19 @@ class BoardEdges {
     /// with NaN.
     double distance(const Eigen::Vector3d& point) const;
 
+    /// Where a point lies on the board nearest to it.
+    struct Place {
+        int board = -1;      ///< -1: there is no board, or the point has NaN
+        double away = 0.0;   ///< m, from the plate; 0 on it and in its holes' place in its plane
+        double edge = 0.0;   ///< m, in the board's plane, to the nearest side of outline or hole
+        int hole_side = -1;  ///< the nearest side of a polygonal hole, counted over the holes
+        double to_hole_side = 0.0;  ///< m, in the board's plane
+    };
+    Place place(const Eigen::Vector3d& point) const;
+    /// Sides of polygonal holes of a board.
+    int hole_sides(int board) const;
+    std::size_t size() const { return boards_.size(); }
+
    private:
     struct Board {
         Target target;

@@ -143,8 +143,10 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::ValuesIn(shipped_names("s
 TEST(ShippedScenes, AreTheLettersKindsAndMore) {
     const auto names = shipped_names("scenes");
     for (const char* name : {"indoor_floor_3m",
+                             "indoor_floor_5m",
                              "indoor_wall_3m",
                              "indoor_four_boards",
+                             "car_3m",
                              "car_5m",
                              "car_8m",
                              "distant_building",
