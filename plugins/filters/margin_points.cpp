@@ -83,15 +83,12 @@ void MarginPoints::run(Run& run) {
     const Cloud& cloud = run.in<Cloud>("cloud");
     const double degree = M_PI / 180.0;
     double step = p_.margin_step_deg * degree;
-    const AngularCells cells = [&] {
-        const auto points = angular_points(*cloud.points, run);
-        if (step == 0.0) {
-            const double density = angular_density(points);
-            step = std::clamp(density > 0.0 ? std::sqrt(kPointsInCell / density) : 0.0,
-                              0.5 * p_.beam_deg * degree, 1.5 * p_.beam_deg * degree);
-        }
-        return AngularCells(points, step, run);
-    }();
+    if (step == 0.0) {
+        const double density = angular_density(*cloud.points);
+        step = std::clamp(density > 0.0 ? std::sqrt(kPointsInCell / density) : 0.0,
+                          0.5 * p_.beam_deg * degree, 1.5 * p_.beam_deg * degree);
+    }
+    const AngularCells cells(*cloud.points, step, run);
     const auto measured = range_noise(cells);
     const double noise = std::max(measured.value_or(kAssumedNoise), kLeastNoise);
     const double threshold = p_.range_threshold > 0.0 ? p_.range_threshold : kSigmas * noise;

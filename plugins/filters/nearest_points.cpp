@@ -51,8 +51,7 @@ void NearestPoints::run(Run& run) {
     constexpr std::size_t kCells = 1024;  // a piece of work
     const auto& cloud = run.in<Cloud>("cloud");
     std::vector<std::uint8_t> stays(cloud.size(), 0);
-    const AngularCells cells(angular_points(*cloud.points, run), params_.margin_step_deg / kDegrees,
-                             run);
+    const AngularCells cells(*cloud.points, params_.margin_step_deg / kDegrees, run);
     const auto& points = cells.points();
     for_pieces(run, cells.size(), kCells, [&](std::size_t begin, std::size_t end) {
         for (std::size_t cell = begin; cell < end; ++cell) {

@@ -3,99 +3,111 @@
 
 #include "filters/detail/angular_cells.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "filters/detail/direction_block.hpp"
+#include "filters/detail/for_pieces.hpp"
 #include "petal/calibration/angles.hpp"
 
 namespace petal {
 namespace {
 
 constexpr auto kHalfTurn = static_cast<float>(kPi);
-constexpr std::size_t kBlock = 16384;  ///< points that one task takes
-constexpr std::size_t kMostBlocks = 64;
+constexpr std::size_t kTaskPoints = 16384;
+constexpr std::size_t kMostTasks = 64;
 
-/// The angle of (x, y), like std::atan2 but without branches, so that compilers vectorise it: an
-/// odd polynomial through the Chebyshev nodes of [0, 1], good to 6e-8, and the octants' symmetry.
-float angle_of(float y, float x) {
-    const float ax = std::abs(x);
-    const float ay = std::abs(y);
-    const float larger = std::max(ax, ay);
-    const float t = std::min(ax, ay) / (larger > 0.0F ? larger : 1.0F);
-    const float u = t * t;
-    float p = -0.00455979199F;
-    p = p * u + 0.0237805186F;
-    p = p * u - 0.0588297531F;
-    p = p * u + 0.0986886546F;
-    p = p * u - 0.140032902F;
-    p = p * u + 0.199669618F;
-    p = p * u - 0.333318127F;
-    p = p * u + 0.999999882F;
-    float angle = p * t;
-    angle = ay > ax ? 0.5F * kHalfTurn - angle : angle;
-    angle = x < 0.0F ? kHalfTurn - angle : angle;
-    return y < 0.0F ? -angle : angle;
-}
+/// Sorts a row's points, which keep their order within a column.
+class RowSorter {
+   public:
+    explicit RowSorter(double step) : per_radian_(1.0F / static_cast<float>(step)) {}
 
-AngularPoint angular(float x, float y, float z, std::size_t index) {
-    const float across = std::sqrt(x * x + y * y);
-    AngularPoint point;
-    point.range = std::sqrt(x * x + y * y + z * z);
-    // A sum of squares that is infinite or NaN tells of all three coordinates at once.
-    if (!(point.range > 0.0F && point.range < std::numeric_limits<float>::infinity()))
-        point.range = std::numeric_limits<float>::quiet_NaN();
-    point.azimuth = angle_of(y, x);
-    point.elevation = angle_of(z, across);
-    point.index = static_cast<std::uint32_t>(index);
-    return point;
-}
+    /// Gives the row's cells, with where they begin after `first`.
+    std::vector<AngularCells::Cell> sort(AngularPoint* first, AngularPoint* last);
 
-/// body(first, last) over blocks of [0, size).
-template <class Body>
-void for_blocks(const Run& run, std::size_t size, std::size_t block, const Body& body) {
-    tbb::task_arena arena(run.threads());
-    arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, block), [&](const auto& range) {
-            if (!run.cancelled()) body(range.begin(), range.end());
+   private:
+    void count(const AngularPoint* first, std::size_t columns);
+
+    float per_radian_;
+    std::vector<std::int32_t> columns_;  ///< of each point
+    std::vector<std::uint32_t> places_;
+    AngularPoints sorted_;
+};
+
+std::vector<AngularCells::Cell> RowSorter::sort(AngularPoint* first, AngularPoint* last) {
+    const auto size = static_cast<std::size_t>(last - first);
+    std::vector<AngularCells::Cell> cells;
+    columns_.resize(size);
+    for (std::size_t i = 0; i < size; ++i)
+        columns_[i] = static_cast<std::int32_t>((first[i].azimuth + kHalfTurn) * per_radian_);
+    std::int32_t least = columns_[0], most = columns_[0];
+    for (const std::int32_t column : columns_) {
+        least = std::min(least, column);
+        most = std::max(most, column);
+    }
+    const auto columns = static_cast<std::size_t>(most - least) + 1;
+    sorted_.resize(size);
+    if (columns > 8 * size) {  // few points: counting would not be linear in them
+        places_.resize(size);
+        for (std::size_t i = 0; i < size; ++i) places_[i] = static_cast<std::uint32_t>(i);
+        std::sort(places_.begin(), places_.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return columns_[a] != columns_[b] ? columns_[a] < columns_[b] : a < b;
         });
-    });
-    run.check_cancelled();
+        for (std::size_t i = 0; i < size; ++i) {
+            const auto column = static_cast<std::uint32_t>(columns_[places_[i]]);
+            if (cells.empty() || cells.back().column != column)
+                cells.push_back({column, static_cast<std::uint32_t>(i)});
+            sorted_[i] = first[places_[i]];
+        }
+    } else {
+        places_.assign(columns, 0);
+        for (const std::int32_t column : columns_)
+            ++places_[static_cast<std::size_t>(column - least)];
+        std::uint32_t sum = 0;
+        for (std::size_t i = 0; i < columns; ++i) {
+            const std::uint32_t begin = sum;
+            if (places_[i] > 0)
+                cells.push_back(
+                    {static_cast<std::uint32_t>(least) + static_cast<std::uint32_t>(i), begin});
+            sum += std::exchange(places_[i], begin);
+        }
+        for (std::size_t i = 0; i < size; ++i)
+            sorted_[places_[static_cast<std::size_t>(columns_[i] - least)]++] = first[i];
+    }
+    std::copy(sorted_.begin(), sorted_.end(), first);
+    return cells;
 }
 
 }  // namespace
 
-std::vector<AngularPoint> angular_points(const mrpt::maps::CPointsMapXYZI& points, const Run& run) {
-    const auto& xs = points.getPointsBufferRef_x();
-    const auto& ys = points.getPointsBufferRef_y();
-    const auto& zs = points.getPointsBufferRef_z();
-    std::vector<AngularPoint> result(xs.size());
-    for_blocks(run, result.size(), kBlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) result[i] = angular(xs[i], ys[i], zs[i], i);
-    });
-    return result;
-}
-
-double angular_density(const std::vector<AngularPoint>& points) {
+double angular_density(const mrpt::maps::CPointsMapXYZI& points) {
     constexpr float kCell = kHalfTurn / 180.0F;
     constexpr std::size_t kColumns = 362, kRows = 182;
     constexpr std::size_t kAsked = 200000;  // enough for a median of counts
     const std::size_t stride = std::max<std::size_t>(1, points.size() / kAsked);
+    mrpt::maps::CPointsMapXYZI asked;
+    asked.resize((points.size() + stride - 1) / stride);
+    for (std::size_t i = 0; i < asked.size(); ++i)
+        asked.setPointFast(i, points.getPointsBufferRef_x()[i * stride],
+                           points.getPointsBufferRef_y()[i * stride],
+                           points.getPointsBufferRef_z()[i * stride]);
     std::vector<std::uint32_t> counts(kColumns * kRows);
     std::size_t taken = 0;
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-        const AngularPoint& p = points[i];
-        if (std::isnan(p.range)) continue;
-        const auto row =
-            static_cast<std::size_t>(std::lround((p.elevation + 0.5F * kHalfTurn) / kCell));
-        const auto column = static_cast<std::size_t>(std::lround((p.azimuth + kHalfTurn) / kCell));
-        ++counts[std::min(row, kRows - 1) * kColumns + std::min(column, kColumns - 1)];
-        ++taken;
+    DirectionBlock block;
+    for (std::size_t first = 0; first < asked.size(); first += DirectionBlock::kSize) {
+        const std::size_t last = std::min(first + DirectionBlock::kSize, asked.size());
+        block.set(asked, first, last);
+        block.set_azimuths();
+        for (std::size_t k = 0; k < last - first; ++k) {
+            if (!block.has_direction(k)) continue;
+            const auto row = static_cast<std::size_t>(
+                std::lround((block.elevation(k) + 0.5F * kHalfTurn) / kCell));
+            const auto column =
+                static_cast<std::size_t>(std::lround((block.azimuth(k) + kHalfTurn) / kCell));
+            ++counts[std::min(row, kRows - 1) * kColumns + std::min(column, kColumns - 1)];
+            ++taken;
+        }
     }
     std::sort(counts.begin(), counts.end());
     std::size_t below = 0;
@@ -108,46 +120,57 @@ double angular_density(const std::vector<AngularPoint>& points) {
     return 0.0;
 }
 
-AngularCells::AngularCells(const std::vector<AngularPoint>& points, double step, const Run& run)
+AngularCells::AngularCells(const mrpt::maps::CPointsMapXYZI& points, double step, const Run& run)
     : step_(std::max(step, kSmallestStep)) {
     sort_columns(sort_rows(points, run), run);
 }
 
-std::uint32_t AngularCells::row_of(const AngularPoint& point) const {
-    return static_cast<std::uint32_t>((point.elevation + 0.5F * kHalfTurn) /
-                                      static_cast<float>(step_));
-}
-
-std::uint32_t AngularCells::column_of(const AngularPoint& point) const {
-    return static_cast<std::uint32_t>((point.azimuth + kHalfTurn) / static_cast<float>(step_));
-}
-
-std::vector<std::uint32_t> AngularCells::sort_rows(const std::vector<AngularPoint>& points,
+std::vector<std::uint32_t> AngularCells::sort_rows(const mrpt::maps::CPointsMapXYZI& points,
                                                    const Run& run) {
-    // A counting sort: each block of points counts its rows, a running sum over rows, then blocks,
-    // gives every block its places, and each block puts its points there.
-    const auto rows = static_cast<std::size_t>(kHalfTurn / static_cast<float>(step_)) + 2;
-    const std::size_t blocks = std::clamp<std::size_t>(points.size() / kBlock, 1, kMostBlocks);
-    const auto first_of = [&](std::size_t block) { return points.size() * block / blocks; };
-    std::vector<std::uint32_t> places(blocks * rows);
-    for_blocks(run, blocks, 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first_of(first); first < last; ++first)
-            for (std::uint32_t* counts = &places[first * rows]; i < first_of(first + 1); ++i)
-                if (!std::isnan(points[i].range)) ++counts[row_of(points[i])];
+    // A counting sort: each task counts the rows of its points, a running sum over rows, then
+    // tasks, gives every task its places, and each task puts its points there. Directions are
+    // computed in both passes: that is cheaper than to write them down and read them again.
+    const float per_radian = 1.0F / static_cast<float>(step_);
+    const auto rows = static_cast<std::size_t>(kHalfTurn * per_radian) + 2;
+    const std::size_t tasks = std::clamp<std::size_t>(points.size() / kTaskPoints, 1, kMostTasks);
+    const auto first_of = [&](std::size_t task) { return points.size() * task / tasks; };
+    std::vector<std::uint32_t> places(tasks * rows);
+    // visit(task's places, index of the first point in the block, k in the block, row)
+    const auto for_rows = [&](bool azimuths, const auto& visit) {
+        for_pieces(run, tasks, 1, [&](std::size_t task, std::size_t end) {
+            DirectionBlock block;
+            for (; task < end; ++task)
+                for (std::size_t i = first_of(task); i < first_of(task + 1);
+                     i += DirectionBlock::kSize) {
+                    const std::size_t last =
+                        std::min(i + DirectionBlock::kSize, first_of(task + 1));
+                    block.set(points, i, last);
+                    if (azimuths) block.set_azimuths();
+                    for (std::size_t k = 0; k < last - i; ++k) {
+                        if (!block.has_direction(k)) continue;
+                        const auto row = static_cast<std::size_t>(
+                            (block.elevation(k) + 0.5F * kHalfTurn) * per_radian);
+                        visit(places[task * rows + row], block, k, i);
+                    }
+                }
+        });
+    };
+    for_rows(false, [](std::uint32_t& count, const DirectionBlock&, std::size_t, std::size_t) {
+        ++count;
     });
     std::vector<std::uint32_t> begins(rows + 1);
     std::uint32_t sum = 0;
     for (std::size_t row = 0; row < rows; ++row) {
         begins[row] = sum;
-        for (std::size_t block = 0; block < blocks; ++block)
-            sum += std::exchange(places[block * rows + row], sum);
+        for (std::size_t task = 0; task < tasks; ++task)
+            sum += std::exchange(places[task * rows + row], sum);
     }
     begins[rows] = sum;
     points_.resize(sum);
-    for_blocks(run, blocks, 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first_of(first); first < last; ++first)
-            for (std::uint32_t* place = &places[first * rows]; i < first_of(first + 1); ++i)
-                if (!std::isnan(points[i].range)) points_[place[row_of(points[i])]++] = points[i];
+    for_rows(true, [this](std::uint32_t& place, const DirectionBlock& block, std::size_t k,
+                          std::size_t first) {
+        points_[place++] = {block.azimuth(k), block.elevation(k), block.range(k),
+                            static_cast<std::uint32_t>(first + k)};
     });
     return begins;
 }
@@ -155,38 +178,13 @@ std::vector<std::uint32_t> AngularCells::sort_rows(const std::vector<AngularPoin
 void AngularCells::sort_columns(const std::vector<std::uint32_t>& begins, const Run& run) {
     const std::size_t rows = begins.size() - 1;
     std::vector<std::vector<Cell>> cells(rows);
-    for_blocks(run, rows, 1, [&](std::size_t first_row, std::size_t last_row) {
-        std::vector<AngularPoint> sorted;
-        std::vector<std::uint32_t> places;
-        for (std::size_t row = first_row; row < last_row; ++row) {
-            const auto first = points_.begin() + begins[row];
-            const auto last = points_.begin() + begins[row + 1];
-            if (first == last) continue;
-            const auto size = static_cast<std::size_t>(last - first);
-            const auto [least, most] = std::minmax_element(
-                first, last, [](const auto& a, const auto& b) { return a.azimuth < b.azimuth; });
-            const std::uint32_t base = column_of(*least);
-            const std::size_t columns = column_of(*most) - base + 1;
-            if (columns > 8 * size) {  // a row with few points: counting would not be linear
-                std::stable_sort(first, last, [this](const auto& a, const auto& b) {
-                    return column_of(a) < column_of(b);
-                });
-            } else {
-                places.assign(columns + 1, 0);
-                for (auto point = first; point != last; ++point)
-                    ++places[column_of(*point) - base + 1];
-                for (std::size_t i = 0; i < columns; ++i) places[i + 1] += places[i];
-                sorted.resize(size);
-                for (auto point = first; point != last; ++point)
-                    sorted[places[column_of(*point) - base]++] = *point;
-                std::copy(sorted.begin(), sorted.end(), first);
-            }
-            for (auto point = first; point != last; ++point) {
-                const std::uint32_t column = column_of(*point);
-                if (cells[row].empty() || cells[row].back().column != column)
-                    cells[row].push_back(
-                        {column, static_cast<std::uint32_t>(point - points_.begin())});
-            }
+    for_pieces(run, rows, 1, [&](std::size_t row, std::size_t end) {
+        RowSorter sorter(step_);
+        for (; row < end; ++row) {
+            if (begins[row] == begins[row + 1]) continue;
+            cells[row] =
+                sorter.sort(points_.data() + begins[row], points_.data() + begins[row + 1]);
+            for (Cell& cell : cells[row]) cell.begin += begins[row];
         }
     });
     rows_.reserve(rows + 1);

@@ -7,32 +7,44 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "petal/run.hpp"
 
 namespace petal {
 
-/// A point as its LiDAR sees it. The range is NaN where there is no direction: a coordinate is not
-/// finite, or the point is the origin (which some sensors send where nothing came back).
+/// A point as its LiDAR sees it.
 struct AngularPoint {
-    float azimuth = 0.0F;    ///< rad, -pi to pi: 0 along x, positive towards y
-    float elevation = 0.0F;  ///< rad, -pi/2 to pi/2: positive towards z
-    float range = 0.0F;      ///< m
-    std::uint32_t index = 0;
+    float azimuth;    ///< rad, -pi to pi: 0 along x, positive towards y; good to 1e-6 rad
+    float elevation;  ///< rad, -pi/2 to pi/2: positive towards z; good to 1e-6 rad
+    float range;      ///< m
+    std::uint32_t index;
 };
 
-/// All points of a map, in their order. Angles are good to 1e-6 rad.
-std::vector<AngularPoint> angular_points(const mrpt::maps::CPointsMapXYZI& points, const Run& run);
+/// Leaves new elements of a vector as they are: millions are written once, by all threads.
+template <class T>
+struct Unset : std::allocator<T> {
+    template <class U>
+    struct rebind {  // NOLINT: the standard library's name
+        using other = Unset<U>;
+    };
+    template <class U>
+    void construct(U* at) {
+        ::new (static_cast<void*>(at)) U;
+    }
+};
+using AngularPoints = std::vector<AngularPoint, Unset<AngularPoint>>;
 
 /// Points for each rad x rad of azimuth and elevation that a point has around it (the median over
 /// points, in cells of 1 deg); 0 where no point has a direction.
-double angular_density(const std::vector<AngularPoint>& points);
+double angular_density(const mrpt::maps::CPointsMapXYZI& points);
 
 /// Points sorted into cells of azimuth and elevation. Only cells that hold a point exist. They are
 /// ordered by row (elevation), then by column (azimuth), and in a cell the points keep their order:
 /// the result does not depend on the number of threads. Time and memory are linear in the points,
-/// whatever the step. Rows and columns do not meet at azimuth +-pi, behind the sensor.
+/// whatever the step. Rows and columns do not meet at azimuth +-pi, behind the sensor. A point
+/// without a direction (a coordinate that is not finite; the origin) is left out.
 class AngularCells {
    public:
     struct Cell {
@@ -42,11 +54,11 @@ class AngularCells {
     static constexpr double kSmallestStep = 1e-4;  ///< rad; a smaller step is taken as this
 
     /// \param step of the cells, rad
-    AngularCells(const std::vector<AngularPoint>& points, double step, const Run& run);
+    AngularCells(const mrpt::maps::CPointsMapXYZI& points, double step, const Run& run);
 
     double step() const { return step_; }
     /// The points that have a direction, cell by cell.
-    const std::vector<AngularPoint>& points() const { return points_; }
+    const AngularPoints& points() const { return points_; }
     std::size_t rows() const { return rows_.size() - 1; }
     std::size_t size() const { return cells_.size() - 1; }  ///< cells
     /// A row's cells are [row_begin(row), row_begin(row + 1)).
@@ -58,14 +70,12 @@ class AngularCells {
 
    private:
     /// Points row by row, in their order. Gives where the rows begin.
-    std::vector<std::uint32_t> sort_rows(const std::vector<AngularPoint>& points, const Run& run);
+    std::vector<std::uint32_t> sort_rows(const mrpt::maps::CPointsMapXYZI& points, const Run& run);
     /// Sorts the points of each row by column and lists the cells.
     void sort_columns(const std::vector<std::uint32_t>& begins, const Run& run);
-    std::uint32_t row_of(const AngularPoint& point) const;
-    std::uint32_t column_of(const AngularPoint& point) const;
 
     double step_;
-    std::vector<AngularPoint> points_;
+    AngularPoints points_;
     std::vector<Cell> cells_;          ///< and one more, at the points' end
     std::vector<std::uint32_t> rows_;  ///< and one more, at the cells' end
 };

@@ -57,7 +57,9 @@ TEST(AngularCells, AnglesAreThoseOfTheStandardLibrary) {
     for (const float x : {1.0F, 0.0F, -1.0F})
         for (const float y : {1.0F, 0.0F, -1.0F}) points.insertPointFast(x, y, 0.5F);
     inside_run(1, [&](petal::Run& run) {
-        for (const AngularPoint& p : angular_points(points, run)) {
+        const AngularCells cells(points, 0.1, run);
+        EXPECT_EQ(cells.points().size(), points.size());
+        for (const AngularPoint& p : cells.points()) {
             float x, y, z;
             points.getPoint(p.index, x, y, z);
             EXPECT_NEAR(p.azimuth, std::atan2(y, x), 1e-6);
@@ -77,7 +79,7 @@ TEST(AngularCells, WhatHasNoDirectionIsNoPoint) {
     points.insertPointFast(1.0F, 2.0F, nan);
     points.insertPointFast(1.0F, 2.0F, 3.0F);
     inside_run(1, [&](petal::Run& run) {
-        const AngularCells cells(angular_points(points, run), 0.01, run);
+        const AngularCells cells(points, 0.01, run);
         ASSERT_EQ(cells.points().size(), 1U);
         EXPECT_EQ(cells.points()[0].index, 4U);
         EXPECT_EQ(cells.size(), 1U);
@@ -87,7 +89,7 @@ TEST(AngularCells, WhatHasNoDirectionIsNoPoint) {
 
 TEST(AngularCells, AnEmptyCloudHasNoCells) {
     inside_run(1, [](petal::Run& run) {
-        const auto points = angular_points(mrpt::maps::CPointsMapXYZI(), run);
+        const mrpt::maps::CPointsMapXYZI points;
         EXPECT_EQ(angular_density(points), 0.0);
         const AngularCells cells(points, 0.01, run);
         EXPECT_EQ(cells.size(), 0U);
@@ -101,7 +103,7 @@ TEST(AngularCells, EveryPointLiesInItsCell) {
     const auto map = scattered(50000);
     for (const double step : {0.02, 0.0002})
         inside_run(2, [&](petal::Run& run) {
-            const AngularCells cells(angular_points(map, run), step, run);
+            const AngularCells cells(map, step, run);
             ASSERT_EQ(cells.points().size(), map.size());
             std::vector<int> seen(map.size());
             for (std::size_t row = 0; row < cells.rows(); ++row)
@@ -132,7 +134,7 @@ TEST(AngularCells, ThreadsDoNotChangeThem) {
     std::vector<std::uint32_t> order[2];
     for (const int threads : {1, 4})
         inside_run(threads, [&](petal::Run& run) {
-            const AngularCells cells(angular_points(map, run), 0.005, run);
+            const AngularCells cells(map, 0.005, run);
             for (const AngularPoint& p : cells.points())
                 order[threads == 1 ? 0 : 1].push_back(p.index);
         });
@@ -150,9 +152,8 @@ TEST(AngularCells, DensityIsThatAroundMostPoints) {
                                    static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
                                    static_cast<float>(std::sin(elevation)));
         }
-    inside_run(1, [&](petal::Run& run) {
-        const double per_square_degree =
-            angular_density(angular_points(points, run)) * std::pow(M_PI / 180, 2);
+    inside_run(1, [&](petal::Run&) {
+        const double per_square_degree = angular_density(points) * std::pow(M_PI / 180, 2);
         EXPECT_NEAR(per_square_degree, 100.0, 10.0);
     });
 }
