@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cmath>
+
 #include "filters/detail/angular_cells.hpp"
 
 namespace petal {
@@ -17,7 +19,10 @@ struct AngularPlane {
     float behind(const AngularPoint& point) const {
         const float here =
             inverse + across * (point.azimuth - azimuth) + up * (point.elevation - elevation);
-        return here > 0.0F ? point.range - 1.0F / here : 0.0F;
+        // Without a branch, so that loops over points are vectorised.
+        constexpr float kLeast = 1e-9F;
+        const float meets = 0.5F + std::copysign(0.5F, here);
+        return meets * (point.range - 1.0F / (std::abs(here) + kLeast));
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include "filters/detail/margin_cells.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -34,15 +35,14 @@ class MarginJudge {
    public:
     MarginJudge(const AngularCells& cells, const std::vector<CellRanges>& ranges,
                 const MarginSettings& settings)
-        : cells_(cells), ranges_(ranges), settings_(settings) {}
+        : cells_(cells), ranges_(ranges), settings_(settings), modes_(settings.noise) {}
 
     /// Marks the cell's margin points. False where there are none.
     bool mark(const CellWindow& window, std::uint32_t cell, std::vector<std::uint8_t>& marks);
 
    private:
-    /// Whether not only a few of the window's points, as flattened, are so: two, or one in 200.
-    template <class Condition>
-    bool enough(const Condition& condition) const;
+    /// Whether two of the window's points, as flattened, lie farther back: one alone is no edge.
+    bool two_lie_behind(float range) const;
     bool has_depth(const CellWindow& window, std::uint32_t cell) const;
     enum class Axis { azimuth, elevation };
     /// \param cross the slope along the other axis
@@ -63,6 +63,7 @@ class MarginJudge {
     const std::vector<CellRanges>& ranges_;
     const MarginSettings& settings_;
     const float step_ = static_cast<float>(cells_.step());
+    ModeFinder modes_;
     std::vector<float> behind_;      ///< m
     std::vector<AngularPoint> far_;  ///< of a window, those behind the frontier
 };
@@ -112,16 +113,16 @@ void MarginJudge::flatten(const CellWindow& window, const AngularPlane& plane) {
     behind_.resize(count);
     float* next = behind_.data();
     window.for_spans(settings_.reach, [&](std::uint32_t first, std::uint32_t last) {
-        const AngularPoint* points = cells_.points().data();
-        for (std::uint32_t i = first; i < last; ++i) *next++ = plane.behind(points[i]);
+        const AngularPoint* points = cells_.points().data() + first;
+        for (std::uint32_t i = 0; i < last - first; ++i) next[i] = plane.behind(points[i]);
+        next += last - first;
     });
 }
 
-template <class Condition>
-bool MarginJudge::enough(const Condition& condition) const {
+bool MarginJudge::two_lie_behind(float range) const {
     std::uint32_t count = 0;
-    for (const float range : behind_) count += condition(range) ? 1U : 0U;
-    return count >= std::max<std::size_t>(2, behind_.size() / 200);
+    for (const float behind : behind_) count += behind > range ? 1U : 0U;
+    return count >= 2;
 }
 
 bool MarginJudge::has_depth(const CellWindow& window, std::uint32_t cell) const {
@@ -151,18 +152,17 @@ bool MarginJudge::mark(const CellWindow& window, std::uint32_t cell,
             plane.across = across.values[x];
             plane.up = up.values[y];
             flatten(window, plane);
-            // The plane goes through the cell's own front: of two surfaces farther apart than the
-            // threshold one is half of it away.
-            const float half = 0.5F * settings_.threshold;
-            if (!enough([half](float range) { return std::abs(range) > half; })) return false;
-            const auto mode =
-                nearest_mode(behind_, settings_.noise,
-                             static_cast<std::size_t>(settings_.min_points), last_own(cell, plane));
+            const Eigen::Map<const Eigen::ArrayXf> all(behind_.data(),
+                                                       static_cast<Eigen::Index>(behind_.size()));
+            const float nearest = all.minCoeff();
+            if (all.maxCoeff() - nearest <= settings_.threshold) return false;
+            const auto mode = modes_.nearest_mode(behind_, nearest,
+                                                  static_cast<std::size_t>(settings_.min_points),
+                                                  last_own(cell, plane));
             const bool likeliest = x == 0 && y == 0;  // the others can only object
             if (!mode && likeliest) return false;
             if (!mode) continue;
-            const float limit = mode->centre + settings_.threshold;
-            if (!enough([limit](float range) { return range > limit; })) return false;
+            if (!two_lie_behind(mode->centre + settings_.threshold)) return false;
             if (!likeliest) continue;
             if (!has_points_at(cell, plane, *mode)) return false;
             frontier = mode;

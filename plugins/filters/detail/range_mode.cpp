@@ -9,60 +9,118 @@
 namespace petal {
 namespace {
 
-constexpr float kHalfWidth = 2.0F;  ///< of the mean shift's flat kernel, in sigma
-constexpr float kBehind = 5.0F;     ///< sigma: as far back a mode is compared with what follows
+constexpr std::int32_t kBinsOfSigma = 4;
+constexpr std::int32_t kHalfKernel = 2 * kBinsOfSigma;
+constexpr std::int32_t kKernel = 2 * kHalfKernel;
+/// The strip behind the kernel that it is compared with, up to five sigma behind its centre.
+constexpr std::int32_t kStrip = 3 * kBinsOfSigma;
 constexpr int kShifts = 5;
-
-using At = std::vector<float>::const_iterator;
-
-/// Mean shift from `start` to where the kernel stays, over ascending ranges.
-RangeMode shifted(At begin, At end, float start, float half) {
-    RangeMode mode;
-    mode.centre = start;
-    for (int shift = 0; shift < kShifts; ++shift) {
-        const auto first = std::lower_bound(begin, end, mode.centre - half);
-        float sum = 0.0F, squares = 0.0F;
-        mode.count = 0;
-        for (auto range = first; range != end && *range <= mode.centre + half; ++range) {
-            const float offset = *range - mode.centre;
-            sum += offset;
-            squares += offset * offset;
-            ++mode.count;
-        }
-        if (mode.count == 0) break;
-        const float mean = sum / static_cast<float>(mode.count);
-        const float variance = squares / static_cast<float>(mode.count) - mean * mean;
-        mode.centre += mean;
-        mode.deviation = std::sqrt(std::max(0.0F, variance));
-        if (std::abs(mean) < 0.05F * half) break;
-    }
-    return mode;
-}
+/// 3 km for a noise of 12 mm: ranges farther in front are counted there.
+constexpr std::int32_t kMostBins = 1 << 20;
 
 }  // namespace
 
-std::optional<RangeMode> nearest_mode(std::vector<float>& ranges, float noise, std::size_t fewest,
-                                      float last) {
-    const float half = kHalfWidth * noise;
-    // A mode wanders by less than half a kernel a shift; most stay within one.
-    const float limit = last + 2.0F * half + kBehind * noise;
-    const auto all = std::partition(ranges.begin(), ranges.end(),
-                                    [limit](float range) { return range <= limit; });
-    std::sort(ranges.begin(), all);
-    const auto size = static_cast<std::size_t>(all - ranges.begin());
-    const auto passing = [](std::size_t inside, std::ptrdiff_t behind) {
-        // The strip behind is 3/4 as wide as the kernel: this asks for twice its density.
-        return 3 * inside >= 8 * static_cast<std::size_t>(behind);
+ModeFinder::Bin ModeFinder::count_in_bins(const std::vector<float>& ranges, float nearest,
+                                          float limit) {
+    const float per_metre = static_cast<float>(kBinsOfSigma) / noise_;
+    const auto bin_of = [&](float range) {
+        return static_cast<Bin>(std::max(0.0F, range - nearest) * per_metre);
     };
-    for (std::size_t i = 0; i + fewest <= size && ranges[i] <= last; ++i) {
-        if (ranges[i + fewest - 1] - ranges[i] > 2.0F * half) continue;
-        const RangeMode mode = shifted(ranges.begin(), all, ranges[i] + half, half);
-        const auto end = std::upper_bound(ranges.begin(), all, mode.centre + half);
-        const auto behind = std::upper_bound(end, all, mode.centre + kBehind * noise);
-        if (mode.count >= fewest && passing(mode.count, behind - end)) return mode;
+    const Bin last = bin_of(limit);
+    dense_ = static_cast<std::size_t>(last) < 4 * ranges.size() + 256;
+    before_.clear();
+    if (dense_) {
+        before_.resize(static_cast<std::size_t>(last) + 2);
+        for (const float range : ranges)
+            if (range <= limit) ++before_[static_cast<std::size_t>(bin_of(range))].count;
+        Before sum;
+        for (Bin bin = 0; bin <= last; ++bin) {
+            Before& here = before_[static_cast<std::size_t>(bin)];
+            const Before next{sum.count + here.count,
+                              sum.bins + std::int64_t{bin} * std::int64_t{here.count}};
+            here = sum;
+            sum = next;
+        }
+        before_.back() = sum;
+        return last;
+    }
+    bins_.clear();
+    for (const float range : ranges)
+        if (range <= limit) bins_.push_back(bin_of(range));
+    std::sort(bins_.begin(), bins_.end());
+    Before sum;
+    for (const Bin bin : bins_) {
+        before_.push_back(sum);
+        ++sum.count;
+        sum.bins += bin;
+    }
+    before_.push_back(sum);
+    return last;
+}
+
+std::size_t ModeFinder::place(Bin bin) const {
+    if (dense_) return std::min(static_cast<std::size_t>(std::max(bin, 0)), before_.size() - 1);
+    return static_cast<std::size_t>(std::lower_bound(bins_.begin(), bins_.end(), bin) -
+                                    bins_.begin());
+}
+
+ModeFinder::Bin ModeFinder::next_filled(Bin bin) const {
+    std::size_t at = place(bin);
+    if (!dense_) return at < bins_.size() ? bins_[at] : kMostBins;
+    while (at + 1 < before_.size() && before_[at + 1].count == before_[at].count) ++at;
+    return at + 1 < before_.size() ? static_cast<Bin>(at) : kMostBins;
+}
+
+RangeMode ModeFinder::around(const std::vector<float>& ranges, float centre) const {
+    const float half = noise_ * static_cast<float>(kHalfKernel) / static_cast<float>(kBinsOfSigma);
+    RangeMode mode;
+    float sum = 0.0F, squares = 0.0F;
+    for (const float range : ranges) {
+        const float offset = range - centre;
+        if (std::abs(offset) > half) continue;
+        sum += offset;
+        squares += offset * offset;
+        ++mode.count;
+    }
+    if (mode.count == 0) return mode;
+    const float mean = sum / static_cast<float>(mode.count);
+    mode.centre = centre + mean;
+    mode.deviation =
+        std::sqrt(std::max(0.0F, squares / static_cast<float>(mode.count) - mean * mean));
+    return mode;
+}
+
+std::optional<RangeMode> ModeFinder::nearest_mode(const std::vector<float>& ranges, float nearest,
+                                                  std::size_t fewest, float last) {
+    const float width = noise_ / static_cast<float>(kBinsOfSigma);
+    // A mode wanders by less than half a kernel a shift; most stay within one.
+    const float limit = last + static_cast<float>(kKernel + kHalfKernel + kStrip) * width;
+    const float origin = std::max(nearest, limit - static_cast<float>(kMostBins - 1) * width);
+    count_in_bins(ranges, origin, limit);
+    const auto last_begin = static_cast<Bin>(std::max(0.0F, last - origin) / width);
+    if (last < origin) return std::nullopt;
+    for (Bin bin = next_filled(0); bin <= last_begin; bin = next_filled(bin)) {
+        Bin begin = bin++;
+        if (before(begin + kKernel).count - before(begin).count < fewest) continue;
+        std::uint32_t count = 0;
+        for (int shift = 0; shift < kShifts; ++shift) {
+            const Before &first = before(begin), &end = before(begin + kKernel);
+            count = end.count - first.count;
+            if (count == 0) break;
+            // The mean of the bins' middles, rounded, becomes the kernel's.
+            const auto middle = static_cast<Bin>((end.bins - first.bins + count) / count);
+            const Bin moved = middle - kHalfKernel;
+            if (moved == begin) break;
+            begin = moved;
+        }
+        const std::uint32_t all = before(begin + kKernel).count;
+        count = all - before(begin).count;
+        const std::uint32_t behind = before(begin + kKernel + kStrip).count - all;
+        // The strip is 3/4 as wide as the kernel: this asks for twice its density.
+        if (count >= fewest && 3 * count >= 8 * behind)
+            return around(ranges, origin + static_cast<float>(begin + kHalfKernel) * width);
         // Go on behind the place that was no surface.
-        const auto next = std::upper_bound(ranges.begin(), all, mode.centre);
-        i = std::max(i, static_cast<std::size_t>(next - ranges.begin()));
+        bin = std::max(bin, begin + kHalfKernel + 1);
     }
     return std::nullopt;
 }
