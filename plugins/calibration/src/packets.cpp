@@ -88,6 +88,16 @@ std::size_t heap(const std::vector<T>& values) {
     return values.capacity() * sizeof(T);
 }
 
+std::size_t heap(const std::vector<std::string>& texts) {
+    std::size_t sum = texts.capacity() * sizeof(std::string);
+    for (const std::string& text : texts) sum += heap(text);
+    return sum;
+}
+
+std::size_t heap(const Eigen::MatrixXd& matrix) {
+    return static_cast<std::size_t>(matrix.size()) * sizeof(double);
+}
+
 std::size_t heap(const std::map<std::string, double>& values) {
     std::size_t sum = 0;
     for (const auto& [name, value] : values) sum += sizeof(name) + sizeof(value) + heap(name);
@@ -169,7 +179,8 @@ std::size_t PacketTraits<Planes>::bytes(const Planes& planes) {
 void PacketTraits<LidarBoards>::seal(LidarBoards&) {}
 
 std::size_t PacketTraits<LidarBoards>::bytes(const LidarBoards& boards) {
-    std::size_t sum = sizeof(boards) + heap(boards.lidar) + heap(boards.boards);
+    std::size_t sum =
+        sizeof(boards) + heap(boards.lidar) + heap(boards.boards) + heap(boards.findings);
     for (const LidarBoard& board : boards.boards)
         sum += heap(board.target) + heap(board.corners) + heap(board.quality);
     return sum;
@@ -178,11 +189,12 @@ std::size_t PacketTraits<LidarBoards>::bytes(const LidarBoards& boards) {
 void PacketTraits<ImageBoards>::seal(ImageBoards&) {}
 
 std::size_t PacketTraits<ImageBoards>::bytes(const ImageBoards& boards) {
-    std::size_t sum = sizeof(boards) + heap(boards.cameras) + heap(boards.boards);
+    std::size_t sum =
+        sizeof(boards) + heap(boards.cameras) + heap(boards.boards) + heap(boards.findings);
     for (const CameraInfo& camera : boards.cameras) sum += heap(camera.label);
     for (const ImageBoard& board : boards.boards)
         sum += heap(board.target) + heap(board.camera) + heap(board.corners) +
-               heap(board.covariance) + heap(board.quality);
+               heap(board.covariance) + heap(board.joint_covariance) + heap(board.quality);
     return sum;
 }
 
@@ -190,9 +202,14 @@ void PacketTraits<Correspondences>::seal(Correspondences&) {}
 
 std::size_t PacketTraits<Correspondences>::bytes(const Correspondences& correspondences) {
     std::size_t sum = sizeof(correspondences) + heap(correspondences.cameras);
-    for (const CameraPairs& camera : correspondences.cameras)
-        sum += heap(camera.camera) + heap(camera.lidar) + heap(camera.pairs) +
-               heap(camera.initial) + heap(camera.boards) + heap(camera.order.reason);
+    for (const CameraPairs& camera : correspondences.cameras) {
+        sum += heap(camera.scene_name) + heap(camera.camera) + heap(camera.lidar) +
+               heap(camera.pairs) + heap(camera.initial) + heap(camera.boards) +
+               heap(camera.order.reason);
+        for (const CameraPairs::BoardPair& board : camera.boards)
+            sum += heap(board.corners_board) + heap(board.corners_image) +
+                   heap(board.image_covariance);
+    }
     return sum;
 }
 
@@ -214,19 +231,24 @@ void PacketTraits<Extrinsics>::seal(Extrinsics&) {}
 
 std::size_t PacketTraits<Extrinsics>::bytes(const Extrinsics& extrinsics) {
     std::size_t sum = sizeof(extrinsics) + heap(extrinsics.cameras) + heap(extrinsics.reasons);
-    for (const CameraExtrinsics& camera : extrinsics.cameras)
+    for (const CameraExtrinsics& camera : extrinsics.cameras) {
         sum += heap(camera.camera) + heap(camera.lidar) + heap(camera.weakest_direction) +
                heap(camera.residuals) + heap(camera.order.reason);
-    for (const std::string& reason : extrinsics.reasons) sum += heap(reason);
+        if (!camera.diagnosis) continue;
+        sum += heap(camera.diagnosis->scenes) + heap(camera.diagnosis->drifts);
+        for (const Diagnosis::Scene& scene : camera.diagnosis->scenes) sum += heap(scene.name);
+        if (camera.diagnosis->advice) sum += heap(camera.diagnosis->advice->sentence);
+    }
     return sum;
 }
 
 void PacketTraits<Metrics>::seal(Metrics&) {}
 
 std::size_t PacketTraits<Metrics>::bytes(const Metrics& metrics) {
-    std::size_t sum = sizeof(metrics) + heap(metrics.values);
+    std::size_t sum = sizeof(metrics) + heap(metrics.values) + heap(metrics.findings);
     for (const Metric& metric : metrics.values)
         sum += heap(metric.name) + heap(metric.unit) + heap(metric.scene);
+    for (const Finding& finding : metrics.findings) sum += heap(finding.reason);
     return sum;
 }
 

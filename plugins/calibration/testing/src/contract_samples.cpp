@@ -133,6 +133,7 @@ std::vector<Eigen::Vector2d> board_pixels() {
 Correspondences pairs_of(const std::vector<Eigen::Vector3d>& lidar,
                          const std::vector<Eigen::Vector2d>& image, int board) {
     CameraPairs pairs;
+    pairs.scene_name = "scene";
     pairs.camera = "CAMERA";
     pairs.lidar = "LIDAR";
     pairs.model = camera(kWidth, kHeight);
@@ -147,7 +148,16 @@ Correspondences pairs_of(const std::vector<Eigen::Vector3d>& lidar,
     if (board >= 0) {
         pairs.order.by = DecidedBy::given;
         pairs.initial = {camera_of_lidar()};
-        pairs.boards = {{0, 0}};
+        CameraPairs::BoardPair& both = pairs.boards.emplace_back();
+        both.lidar = both.image = 0;
+        both.T_lidar_board = board_pose();
+        both.pose_covariance = 1e-6 * Matrix6d::Identity();
+        for (const Eigen::Vector3d& corner : lidar)
+            both.corners_board.push_back(board_pose().inverse() * corner);
+        both.corners_image = image;
+        both.image_covariance =
+            0.01 * Eigen::MatrixXd::Identity(2 * static_cast<Eigen::Index>(image.size()),
+                                             2 * static_cast<Eigen::Index>(image.size()));
     }
     return Correspondences{{pairs}};
 }

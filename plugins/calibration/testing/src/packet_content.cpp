@@ -117,16 +117,21 @@ class Content {
             .add(board.covariance)
             .add(board.quality);
     }
-    Content& add(const LidarBoards& boards) { return add(boards.lidar).add(boards.boards); }
+    Content& add(const LidarBoards& boards) {
+        return add(boards.lidar).add(boards.boards).add(boards.findings);
+    }
     Content& add(const ImageBoard& board) {
         return add(board.target)
             .add(board.camera)
             .add(board.corners)
             .add(board.covariance)
+            .add(board.joint_covariance)
             .add(board.quality);
     }
     Content& add(const CameraInfo& info) { return add(info.label).add(info.camera); }
-    Content& add(const ImageBoards& boards) { return add(boards.cameras).add(boards.boards); }
+    Content& add(const ImageBoards& boards) {
+        return add(boards.cameras).add(boards.boards).add(boards.findings);
+    }
     Content& add(const PointPair& pair) {
         return add(pair.lidar)
             .add(pair.image)
@@ -142,9 +147,19 @@ class Content {
             .add(order.contradicts_priors)
             .add(order.reason);
     }
-    Content& add(const CameraPairs::BoardPair& pair) { return add(pair.lidar).add(pair.image); }
+    Content& add(const CameraPairs::BoardPair& pair) {
+        return add(pair.lidar)
+            .add(pair.image)
+            .add(pair.T_lidar_board)
+            .add(pair.pose_covariance)
+            .add(pair.corners_board)
+            .add(pair.corners_image)
+            .add(pair.image_covariance);
+    }
     Content& add(const CameraPairs& pairs) {
-        return add(pairs.camera)
+        return add(pairs.scene)
+            .add(pairs.scene_name)
+            .add(pairs.camera)
             .add(pairs.lidar)
             .add(pairs.model)
             .add(pairs.pairs)
@@ -172,7 +187,49 @@ class Content {
             .add(camera.chi2)
             .add(camera.degrees_of_freedom)
             .add(camera.residuals)
-            .add(camera.order);
+            .add(camera.order)
+            .add(camera.diagnosis);
+    }
+    Content& add(const Diagnosis::Scene& scene) {
+        return add(scene.scene)
+            .add(scene.name)
+            .add(scene.chi2)
+            .add(scene.degrees_of_freedom)
+            .add(scene.influence)
+            .add(scene.shift)
+            .add(scene.shift_sigmas)
+            .add(scene.solvable_without)
+            .add(scene.outlier);
+    }
+    Content& add(const Diagnosis::Drift& drift) {
+        return add(drift.range).add(drift.px).add(drift.considered_px);
+    }
+    Content& add(const Diagnosis::Advice& advice) {
+        return add(advice.sentence)
+            .add(advice.range)
+            .add(advice.u)
+            .add(advice.v)
+            .add(advice.pitch)
+            .add(advice.yaw)
+            .add(advice.sigma_translation_before)
+            .add(advice.sigma_translation_after)
+            .add(advice.sigma_rotation_before)
+            .add(advice.sigma_rotation_after);
+    }
+    Content& add(const Diagnosis::FocalScale& focal) {
+        return add(focal.scale).add(focal.sigma).add(focal.estimated);
+    }
+    Content& add(const Diagnosis::Prior& prior) {
+        return add(prior.distance).add(prior.sigmas).add(prior.covariance_without_prior);
+    }
+    Content& add(const Diagnosis& diagnosis) {
+        return add(diagnosis.covariance_considered)
+            .add(diagnosis.variance_scale)
+            .add(diagnosis.scenes)
+            .add(diagnosis.drifts)
+            .add(diagnosis.advice)
+            .add(diagnosis.focal)
+            .add(diagnosis.prior);
     }
     Content& add(const Extrinsics& extrinsics) {
         return add(extrinsics.cameras).add(extrinsics.level).add(extrinsics.reasons);
@@ -180,7 +237,8 @@ class Content {
     Content& add(const Metric& metric) {
         return add(metric.name).add(metric.value).add(metric.unit).add(metric.scene);
     }
-    Content& add(const Metrics& metrics) { return add(metrics.values); }
+    Content& add(const Finding& finding) { return add(finding.level).add(finding.reason); }
+    Content& add(const Metrics& metrics) { return add(metrics.values).add(metrics.findings); }
     Content& add(const Truth::Board& board) {
         return add(board.target)
             .add(board.T_lidar_board)
