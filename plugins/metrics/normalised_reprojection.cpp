@@ -27,12 +27,22 @@ std::size_t corners_of(const Truth& truth) {
 }
 
 /// For each frame the corners of the boards that stand there; left out where none is known of.
-std::map<std::uint64_t, std::size_t> standing_corners(Run& run) {
+/// Frames that no camera is told of join `scenes`: they have failed as a whole.
+std::map<std::uint64_t, std::size_t> standing_corners(Run& run, std::vector<SceneErrors>& scenes) {
     std::map<std::uint64_t, std::size_t> corners;
     if (!run.wired("truth")) return corners;
-    for (const auto& truth : run.all<Truth>("truth"))
-        if (const std::size_t count = corners_of(*truth); count > 0)
-            corners.emplace(truth.frame.number, count);
+    for (const auto& truth : run.all<Truth>("truth")) {
+        const std::size_t count = corners_of(*truth);
+        if (count == 0) continue;
+        corners.emplace(truth.frame.number, count);
+        const auto at = std::lower_bound(
+            scenes.begin(), scenes.end(), truth.frame.number,
+            [](const SceneErrors& scene, std::uint64_t n) { return scene.frame.number < n; });
+        if (at != scenes.end() && at->frame.number == truth.frame.number) continue;
+        SceneErrors failed;
+        failed.frame = truth.frame;
+        scenes.insert(at, std::move(failed));
+    }
     return corners;
 }
 
@@ -76,9 +86,9 @@ A small figure is no proof of a good pose: see metric.truth.)");
 }
 
 void NormalisedReprojectionMetric::finish(Run& run) {
-    const auto scenes =
+    auto scenes =
         pair_errors(run.in<Extrinsics>("extrinsics"), run.all<Correspondences>("correspondences"));
-    const auto standing = standing_corners(run);
+    const auto standing = standing_corners(run, scenes);
     Metrics metrics;
     std::vector<PairError> total;
     std::vector<std::string> unknown;

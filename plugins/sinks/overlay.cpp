@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/camera_model.hpp"
@@ -28,10 +29,12 @@ struct SceneView {
     std::shared_ptr<const Cloud> cloud;
     std::shared_ptr<const ImageBoards> image_boards;
     std::shared_ptr<const LidarBoards> lidar_boards;
-    std::shared_ptr<const Correspondences> correspondences;
+    std::vector<const CameraPairs*> pairs;
 };
 
-std::map<std::uint64_t, SceneView> scenes_of(const Run& run) {
+/// `correspondences` must outlive what is returned.
+std::map<std::uint64_t, SceneView> scenes_of(
+    const Run& run, const std::vector<Packet<Correspondences>>& correspondences) {
     std::map<std::uint64_t, SceneView> scenes;
     for (const auto& packet : run.all<Images>("images")) {
         SceneView& scene = scenes[packet.frame.number];
@@ -45,8 +48,9 @@ std::map<std::uint64_t, SceneView> scenes_of(const Run& run) {
         scenes[packet.frame.number].image_boards = packet.value;
     for (const auto& packet : run.all<LidarBoards>("lidar_boards"))
         scenes[packet.frame.number].lidar_boards = packet.value;
-    for (const auto& packet : run.all<Correspondences>("correspondences"))
-        scenes[packet.frame.number].correspondences = packet.value;
+    for (const auto& packet : correspondences)
+        for (const CameraPairs& pairs : packet->cameras)
+            scenes[pairs.scene].pairs.push_back(&pairs);
     return scenes;
 }
 
@@ -77,10 +81,10 @@ void draw_camera(OverlayCanvas& canvas, const SceneView& scene, const CameraImag
     if (solved != nullptr && scene.lidar_boards)
         for (const LidarBoard& board : scene.lidar_boards->boards)
             canvas.draw_projected(board.corners, solved->T_camera_lidar);
-    if (solved != nullptr && scene.correspondences)
-        for (const CameraPairs& pairs : scene.correspondences->cameras)
-            if (pairs.camera == image.label)
-                canvas.draw_residuals(pairs.pairs, solved->T_camera_lidar, params.residual_scale);
+    if (solved != nullptr)
+        for (const CameraPairs* pairs : scene.pairs)
+            if (pairs->camera == image.label)
+                canvas.draw_residuals(pairs->pairs, solved->T_camera_lidar, params.residual_scale);
 }
 
 }  // namespace
@@ -123,7 +127,8 @@ void Overlay::describe(Spec<Params>& s) {
 void Overlay::finish(Run& run) {
     const Extrinsics& extrinsics = run.in<Extrinsics>("extrinsics");
     std::set<std::string> taken;
-    for (const auto& [number, scene] : scenes_of(run)) {
+    const auto correspondences = run.all<Correspondences>("correspondences");
+    for (const auto& [number, scene] : scenes_of(run, correspondences)) {
         run.check_cancelled();
         if (!scene.images) continue;
         for (const CameraImage& image : scene.images->cameras) {

@@ -205,8 +205,10 @@ mrpt::img::TCamera PairsSource::read_camera(Run& run) const {
 
 void PairsSource::run(Run& run) {
     if (std::exchange(done_, true)) return run.end_of_data();
-    run.set_frame(scene_name(params_.pairs.empty() ? params_.lidar_points : params_.pairs), 0.0);
     CameraPairs camera;
+    camera.scene_name = scene_name(params_.pairs.empty() ? params_.lidar_points : params_.pairs);
+    run.set_frame(camera.scene_name, 0.0);
+    camera.scene = run.frame().number;
     camera.camera = params_.camera;
     camera.lidar = params_.lidar;
     camera.model = read_camera(run);

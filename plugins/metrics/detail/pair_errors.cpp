@@ -4,6 +4,8 @@
 #include "metrics/detail/pair_errors.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -12,15 +14,14 @@
 namespace petal {
 
 std::vector<SceneErrors> pair_errors(const Extrinsics& extrinsics,
-                                     std::vector<Packet<Correspondences>> scenes) {
-    std::stable_sort(scenes.begin(), scenes.end(),
-                     [](const auto& a, const auto& b) { return a.frame.number < b.frame.number; });
-    std::vector<SceneErrors> measured;
-    for (const auto& scene : scenes) {
-        SceneErrors found;
-        found.frame = scene.frame;
-        found.cameras = scene->cameras.size();
-        for (const CameraPairs& seen : scene->cameras) {
+                                     const std::vector<Packet<Correspondences>>& packets) {
+    std::map<std::uint64_t, SceneErrors> scenes;
+    for (const auto& packet : packets)
+        for (const CameraPairs& seen : packet->cameras) {
+            SceneErrors& found = scenes[seen.scene];
+            found.frame.number = seen.scene;
+            if (found.frame.name.empty()) found.frame.name = seen.scene_name;
+            ++found.cameras;
             const auto solved =
                 std::find_if(extrinsics.cameras.begin(), extrinsics.cameras.end(),
                              [&](const CameraExtrinsics& camera) {
@@ -40,8 +41,9 @@ std::vector<SceneErrors> pair_errors(const Extrinsics& extrinsics,
                 found.errors.push_back({pair.image - *pixel, pair.lidar.norm(), pair.board >= 0});
             }
         }
-        measured.push_back(std::move(found));
-    }
+    std::vector<SceneErrors> measured;
+    measured.reserve(scenes.size());
+    for (auto& [number, scene] : scenes) measured.push_back(std::move(scene));
     return measured;
 }
 

@@ -16,7 +16,7 @@ namespace petal {
 
 /// What the pairs of a scene miss by, all cameras together.
 struct SceneErrors {
-    FrameInfo frame;
+    FrameInfo frame;                ///< number and name; no stamp
     std::vector<PairError> errors;  ///< of the pairs that could be measured
     std::size_t lost = 0;           ///< pairs that do not project or hold no finite pixel
     std::size_t unsolved = 0;       ///< pairs of cameras without extrinsics
@@ -26,9 +26,10 @@ struct SceneErrors {
 };
 
 /// Projects the LiDAR point of every pair with its camera's pose and the model that the solver
-/// used. Scenes come in the order of their frames.
+/// used. Scenes come in the order of CameraPairs::scene; one that no packet tells a camera of is
+/// not among them.
 std::vector<SceneErrors> pair_errors(const Extrinsics& extrinsics,
-                                     std::vector<Packet<Correspondences>> scenes);
+                                     const std::vector<Packet<Correspondences>>& packets);
 
 /// A note where pairs could not be measured, or there are none.
 void note_unmeasured(Run& run, const std::vector<SceneErrors>& scenes);

@@ -66,7 +66,11 @@ std::map<std::uint64_t, std::string> scene_names(const ResultInput& input) {
             if (name.empty()) name = packet.frame.name;
         }
     };
-    add(input.correspondences);
+    for (const auto& packet : input.correspondences)
+        for (const CameraPairs& camera : packet->cameras) {
+            std::string& name = names[camera.scene];
+            if (name.empty()) name = camera.scene_name;
+        }
     add(input.lidar_boards);
     add(input.image_boards);
     for (auto& [number, name] : names)
@@ -143,7 +147,7 @@ Json board_json(const std::string& target, const Json& camera, Json lidar, Json 
 /// The boards of one scene: the matched ones in the order of the pairs, then those of one sensor
 /// alone.
 struct SceneBoards {
-    const Correspondences* correspondences = nullptr;
+    std::vector<const CameraPairs*> pairs;
     const LidarBoards* lidar = nullptr;
     const ImageBoards* image = nullptr;
 
@@ -151,15 +155,14 @@ struct SceneBoards {
         Json boards = Json::array();
         std::set<int> lidar_used;
         std::set<int> image_used;
-        if (correspondences != nullptr)
-            for (const CameraPairs& camera : correspondences->cameras)
-                for (const int b : boards_of(camera)) {
-                    if (static_cast<std::size_t>(b) < camera.boards.size()) {
-                        lidar_used.insert(camera.boards[static_cast<std::size_t>(b)].lidar);
-                        image_used.insert(camera.boards[static_cast<std::size_t>(b)].image);
-                    }
-                    boards.push_back(matched(camera, b));
+        for (const CameraPairs* camera : pairs)
+            for (const int b : boards_of(*camera)) {
+                if (static_cast<std::size_t>(b) < camera->boards.size()) {
+                    lidar_used.insert(camera->boards[static_cast<std::size_t>(b)].lidar);
+                    image_used.insert(camera->boards[static_cast<std::size_t>(b)].image);
                 }
+                boards.push_back(matched(*camera, b));
+            }
         if (lidar != nullptr)
             for (std::size_t i = 0; i < lidar->boards.size(); ++i)
                 if (lidar_used.count(static_cast<int>(i)) == 0)
@@ -211,7 +214,8 @@ struct SceneBoards {
 Json scenes_json(const ResultInput& input, const std::map<std::uint64_t, std::string>& names) {
     std::map<std::uint64_t, SceneBoards> scenes;
     for (const auto& packet : input.correspondences)
-        scenes[packet.frame.number].correspondences = packet.value.get();
+        for (const CameraPairs& camera : packet->cameras)
+            scenes[camera.scene].pairs.push_back(&camera);
     for (const auto& packet : input.lidar_boards)
         scenes[packet.frame.number].lidar = packet.value.get();
     for (const auto& packet : input.image_boards)

@@ -9,32 +9,12 @@
 
 #include "petal/calibration/angles.hpp"
 #include "petal/printed.hpp"
+#include "solvers/detail/order_chi2.hpp"
+#include "solvers/detail/order_rivals.hpp"
+#include "solvers/detail/verdict.hpp"
 
 namespace petal {
 namespace {
-
-constexpr double kBoardRedundancy = 4.0;  // 32 numbers a board come from about 8 lines
-
-bool same(const BoardOrder& a, const BoardOrder& b) {
-    return a.matches == b.matches;
-}
-
-void add_distinct(std::vector<BoardOrder>& orders, BoardOrder order) {
-    for (BoardOrder& known : orders) {
-        if (!same(known, order)) continue;
-        if (order.rms_px() < known.rms_px()) known = std::move(order);
-        return;
-    }
-    orders.push_back(std::move(order));
-}
-
-/// What remains of an order once the boards beyond their gate are gone.
-std::optional<BoardOrder> within_gate(const BoardOrders& boards, const BoardOrder& order) {
-    std::optional<BoardOrder> kept = order;
-    while (kept && kept->worst_gate_ratio > 1.0)
-        kept = boards.reduced(std::move(*kept), kept->matches.size() - 1);
-    return kept;
-}
 
 bool priors_hold(const Eigen::Isometry3d& pose, const OrderParams& params) {
     if (params.upright) {
@@ -64,114 +44,153 @@ std::string prior_names(const OrderParams& params) {
     return names;
 }
 
-}  // namespace
+/// The rivals of one decision, with what is asked of each.
+class Contest {
+   public:
+    Contest(const BoardSet& boards, std::vector<BoardOrder> rivals, const OrderParams& params)
+        : boards_(boards), rivals_(std::move(rivals)), params_(params) {}
 
-std::optional<OrderChoice> choose_order(const BoardOrders& boards,
-                                        const std::vector<BoardOrder>& found,
-                                        const OrderParams& params) {
-    std::size_t most = 0;
-    std::vector<BoardOrder> accepted;
-    for (const BoardOrder& order : found)
-        if (auto kept = within_gate(boards, order)) {
-            most = std::max(most, kept->matches.size());
-            add_distinct(accepted, std::move(*kept));
-        }
-    if (most == 0) return std::nullopt;
+    OrderChoice decide() const;
 
-    // Whoever explains as many boards, also beyond the gate: an order with fewer is no rival, since
-    // it leaves a board without an explanation that another order has one for.
-    std::vector<BoardOrder> rivals;
-    for (BoardOrder& order : accepted)
-        if (order.matches.size() == most) add_distinct(rivals, std::move(order));
-    for (const BoardOrder& order : found)
-        if (order.matches.size() >= most)
-            if (auto cut = boards.reduced(order, most)) add_distinct(rivals, std::move(*cut));
-    std::stable_sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) {
-        const bool a_in = a.worst_gate_ratio <= 1.0, b_in = b.worst_gate_ratio <= 1.0;
-        return a_in != b_in ? a_in : a.rms_px() < b.rms_px();
-    });
-
-    const auto fill = [&](const BoardOrder& taken, DecidedBy by, std::string reason) {
-        OrderChoice choice{taken, {}};
-        choice.decision.by = by;
-        // Of the pose that comes first, which a prior may have put before a better one.
-        choice.decision.rms_px = taken.rms_px();
-        const BoardOrder* other = nullptr;
-        for (const BoardOrder& rival : rivals)
-            if (!same(rival, taken) && (other == nullptr || rival.rms_px() < other->rms_px()))
-                other = &rival;
-        if (other != nullptr) {
-            const auto corners = static_cast<double>(boards.pairs(taken.matches).size());
-            // As compared with min_runner_up_ratio: with the floor.
-            choice.decision.runner_up_rms_ratio = std::max(other->rms_px(), params.noise_floor_px) /
-                                                  std::max(taken.rms_px(), params.noise_floor_px);
-            choice.decision.runner_up_chi2 =
-                corners * (std::pow(other->rms_px(), 2) - std::pow(taken.rms_px(), 2)) /
-                kBoardRedundancy;
-        }
-        choice.decision.reason = std::move(reason);
-        return choice;
-    };
-
-    const BoardOrder best = rivals.front();
-    // The search may have passed over every rival; then the nearest kin of the order are rivals
-    // enough.
-    if (rivals.size() == 1)
-        for (BoardOrder& kin : boards.kin(best)) add_distinct(rivals, std::move(kin));
-    double runner_up = 0.0;
-    for (const BoardOrder& rival : rivals)
-        if (!same(rival, best) && (runner_up == 0.0 || rival.rms_px() < runner_up))
-            runner_up = rival.rms_px();
-    const double floored =
-        std::max(runner_up, params.noise_floor_px) / std::max(best.rms_px(), params.noise_floor_px);
-    // One board alone maps onto itself, exactly or nearly: whatever its residuals prefer is noise.
-    const bool symmetric = most == 1;
-    if (!symmetric && (runner_up == 0.0 || floored >= params.min_runner_up_ratio)) {
-        const bool contradicts = !priors_hold(best.poses.front().T_camera_lidar, params);
-        OrderChoice decided = fill(
-            best, DecidedBy::data,
-            (runner_up == 0.0 ? std::string("no other order explains as many boards")
-                              : printed("the best other order has %.2f times the RMS", floored)) +
-                (contradicts ? "; the priors (" + prior_names(params) + ") do not hold" : ""));
-        decided.decision.contradicts_priors = contradicts;
-        return decided;
+   private:
+    const BoardOrder& best() const { return rivals_.front(); }
+    double floored(double rms_px) const { return std::max(rms_px, params_.noise_floor_px); }
+    double ratio(const BoardOrder& a, const BoardOrder& b) const {
+        return floored(a.rms_px()) / floored(b.rms_px());
     }
+    OrderChi2 chi2(const BoardOrder& order) const {
+        return order_chi2(boards_, order.matches, order.poses.front().T_camera_lidar,
+                          params_.lidar_sigma);
+    }
+    OrderChoice fill(const BoardOrder& taken, DecidedBy by, std::string reason) const;
+    /// Chi-square of another order above that of the best, in units of what the best leaves.
+    double surplus(const OrderChi2& mine, const BoardOrder& other) const;
+    /// More than noise is left, yet no other order comes near: then the detectors told too little
+    /// noise, or one of many boards is false; the order is not in question.
+    bool beyond_doubt(const OrderChi2& mine) const;
+    /// Empty where the data decide for the best order, else why they do not.
+    std::string why_not_data() const;
+    OrderChoice by_data() const;
+    OrderChoice by_prior(const std::string& alike) const;
 
-    const std::string alike =
-        symmetric
-            ? "one board looks the same in each of its rotations"
-            : printed("the best other order has only %.2f times the RMS (%.2f against %.2f px)",
-                      floored, runner_up, best.rms_px());
-    if (!params.upright && !params.use_max_baseline)
-        return fill(best, DecidedBy::undecided, alike + ", and no prior is on");
+    const BoardSet& boards_;
+    std::vector<BoardOrder> rivals_;
+    const OrderParams& params_;
+};
 
+OrderChoice Contest::fill(const BoardOrder& taken, DecidedBy by, std::string reason) const {
+    OrderChoice choice{taken, {}};
+    choice.decision.by = by;
+    // Of the pose that comes first, which a prior may have put before a better one.
+    choice.decision.rms_px = taken.rms_px();
+    if (const BoardOrder* other = best_other(rivals_, taken)) {
+        // As compared with min_runner_up_ratio: with the floor.
+        choice.decision.runner_up_rms_ratio = ratio(*other, taken);
+        choice.decision.runner_up_chi2 = chi2(*other).chi2 - chi2(taken).chi2;
+    }
+    choice.decision.reason = std::move(reason);
+    return choice;
+}
+
+std::string Contest::why_not_data() const {
+    // One board alone maps onto itself, exactly or nearly: whatever its residuals prefer is noise.
+    if (best().matches.size() == 1) return "one board looks the same in each of its rotations";
+    const BoardOrder* other = best_other(rivals_, best());
+    if (other == nullptr) return "";
+    const std::string named = "the best other order (" + difference_text(best(), *other) + ")";
+    if (ratio(*other, best()) < params_.min_runner_up_ratio)
+        return named + printed(" has only %.2f times the RMS (%.2f against %.2f px)",
+                               ratio(*other, best()), other->rms_px(), best().rms_px());
+    const double more = surplus(chi2(best()), *other);
+    if (more < params_.min_runner_up_chi2)
+        return named + printed(" has a chi-square only %.1f above (%.1f asked for)", more,
+                               params_.min_runner_up_chi2);
+    return "";
+}
+
+double Contest::surplus(const OrderChi2& mine, const BoardOrder& other) const {
+    const double scale = std::max(1.0, mine.chi2 / std::max(1, mine.degrees_of_freedom));
+    return (chi2(other).chi2 - mine.chi2) / scale;
+}
+
+bool Contest::beyond_doubt(const OrderChi2& mine) const {
+    constexpr std::size_t kBoards = 4;  // of fewer a false one bends the pose instead of missing it
+    constexpr double kSurplus = 1000.0;
+    const BoardOrder* other = best_other(rivals_, best());
+    return best().matches.size() >= kBoards && other != nullptr &&
+           surplus(mine, *other) >= kSurplus;
+}
+
+OrderChoice Contest::by_data() const {
+    constexpr double kUpperZ = 3.0902;  // 99.9 %
+    constexpr double kMisjudged = 2.0;  // chi-square a degree: sigmas told 1.4 times too small
+    const BoardOrder* other = best_other(rivals_, best());
+    std::string reason = other == nullptr ? std::string("no other order explains as many boards")
+                                          : printed("the best other order has %.2f times the RMS",
+                                                    ratio(*other, best()));
+    // More than noise is left: then a board is false, or the sensors do not see the same ones, and
+    // a smaller RMS than another order's proves nothing.
+    const OrderChi2 mine = chi2(best());
+    const double most = std::max(chi2_quantile(mine.degrees_of_freedom, kUpperZ),
+                                 kMisjudged * mine.degrees_of_freedom);
+    const bool contradicts = !priors_hold(best().poses.front().T_camera_lidar, params_);
+    if (mine.chi2 > most) {
+        const std::string noise = printed(
+            "chi-square %.1f with %d degrees of freedom is more than "
+            "noise",
+            mine.chi2, mine.degrees_of_freedom);
+        if (!beyond_doubt(mine)) {
+            const bool prior = (params_.upright || params_.use_max_baseline) && !contradicts;
+            return fill(best(), prior ? DecidedBy::prior : DecidedBy::undecided,
+                        reason + "; but " + noise + ", so a board may be false or not shared" +
+                            (prior ? "; the priors hold" : ""));
+        }
+        reason += "; " + noise + ", but no other order comes near";
+    }
+    if (contradicts) reason += "; the priors (" + prior_names(params_) + ") do not hold";
+    OrderChoice decided = fill(best(), DecidedBy::data, std::move(reason));
+    decided.decision.contradicts_priors = contradicts;
+    return decided;
+}
+
+OrderChoice Contest::by_prior(const std::string& alike) const {
+    if (!params_.upright && !params_.use_max_baseline)
+        return fill(best(), DecidedBy::undecided, alike + ", and no prior is on");
     std::vector<BoardOrder> left;
-    const double limit = params.max_prior_ratio * std::max(best.rms_px(), params.noise_floor_px);
-    for (const BoardOrder& rival : rivals)
+    const double limit = params_.max_prior_ratio * floored(best().rms_px());
+    for (const BoardOrder& rival : rivals_)
         if (rival.worst_gate_ratio <= 1.0)
-            if (auto order = allowed(rival, params))
+            if (auto order = allowed(rival, params_))
                 if (order->rms_px() <= limit) left.push_back(std::move(*order));
     std::stable_sort(left.begin(), left.end(),
                      [](const auto& a, const auto& b) { return a.rms_px() < b.rms_px(); });
     if (left.empty())
         return fill(
-            best, DecidedBy::undecided,
-            alike + ", and none of the orders satisfies the priors (" + prior_names(params) + ")");
-    if (left.size() > 1) {
-        const double ratio = std::max(left[1].rms_px(), params.noise_floor_px) /
-                             std::max(left[0].rms_px(), params.noise_floor_px);
-        if (ratio < params.min_runner_up_ratio)
-            return fill(
-                left[0], DecidedBy::undecided,
-                alike + printed(", and %.0f orders satisfy the priors, the second with %.2f "
-                                "times the RMS",
-                                static_cast<double>(left.size()), ratio));
-    }
+            best(), DecidedBy::undecided,
+            alike + ", and none of the orders satisfies the priors (" + prior_names(params_) + ")");
+    if (left.size() > 1 && ratio(left[1], left[0]) < params_.min_runner_up_ratio)
+        return fill(left[0], DecidedBy::undecided,
+                    alike + printed(", and %.0f orders satisfy the priors, the second with %.2f "
+                                    "times the RMS",
+                                    static_cast<double>(left.size()), ratio(left[1], left[0])));
     return fill(left[0], DecidedBy::prior,
-                alike + "; taken: " + prior_names(params) +
-                    printed(" (%.2f times the best RMS)",
-                            std::max(left[0].rms_px(), params.noise_floor_px) /
-                                std::max(best.rms_px(), params.noise_floor_px)));
+                alike + "; taken: " + prior_names(params_) +
+                    printed(" (%.2f times the best RMS)", ratio(left[0], best())));
+}
+
+OrderChoice Contest::decide() const {
+    const std::string alike = why_not_data();
+    return alike.empty() ? by_data() : by_prior(alike);
+}
+
+}  // namespace
+
+std::optional<OrderChoice> choose_order(const BoardOrders& orders,
+                                        const std::vector<BoardOrder>& found,
+                                        const OrderParams& params) {
+    auto rivals = order_rivals(orders, found);
+    if (rivals.empty()) return std::nullopt;
+    return Contest(orders.boards(), std::move(rivals), params).decide();
 }
 
 }  // namespace petal

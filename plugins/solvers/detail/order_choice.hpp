@@ -15,7 +15,9 @@ namespace petal {
 /// When the data decide, and what decides otherwise.
 struct OrderParams {
     double min_runner_up_ratio = 1.5;
+    double min_runner_up_chi2 = 20.0;
     double noise_floor_px = 0.3;
+    double lidar_sigma = 0.005;  ///< m
     double max_prior_ratio = 3.0;
     bool upright = true;
     double upright_tolerance_deg = 45.0;
@@ -28,9 +30,9 @@ struct OrderChoice {
     OrderDecision decision;
 };
 
-/// The most boards within their gate; among the orders that explain as many: the data, else the
-/// priors. None where no order explains a board within its gate.
-std::optional<OrderChoice> choose_order(const BoardOrders& boards,
+/// The most boards within their gate over all scenes; among the orders that explain as many: the
+/// data, else the priors. None where no order explains a board within its gate.
+std::optional<OrderChoice> choose_order(const BoardOrders& orders,
                                         const std::vector<BoardOrder>& found,
                                         const OrderParams& params);
 

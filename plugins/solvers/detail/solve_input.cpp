@@ -12,11 +12,6 @@
 namespace petal {
 namespace {
 
-bool same_projection(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b) {
-    return a.ncols == b.ncols && a.nrows == b.nrows && a.fx() == b.fx() && a.fy() == b.fy() &&
-           a.cx() == b.cx() && a.cy() == b.cy() && a.distortion == b.distortion && a.dist == b.dist;
-}
-
 /// Worst first: undecided, prior, then what the data or the input said.
 int rank(DecidedBy by) {
     switch (by) {
@@ -44,6 +39,11 @@ bool worse(const OrderDecision& a, const OrderDecision& b) {
 
 }  // namespace
 
+bool same_projection(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b) {
+    return a.ncols == b.ncols && a.nrows == b.nrows && a.fx() == b.fx() && a.fy() == b.fy() &&
+           a.cx() == b.cx() && a.cy() == b.cy() && a.distortion == b.distortion && a.dist == b.dist;
+}
+
 CameraModel camera_model(const mrpt::img::TCamera& camera, bool use_distortion) {
     mrpt::img::TCamera used = camera;
     if (!use_distortion) {
@@ -54,45 +54,50 @@ CameraModel camera_model(const mrpt::img::TCamera& camera, bool use_distortion) 
 }
 
 std::vector<SolveInput> gather(const std::vector<Packet<Correspondences>>& packets) {
-    std::vector<Packet<Correspondences>> scenes = packets;
-    std::stable_sort(scenes.begin(), scenes.end(),
-                     [](const auto& a, const auto& b) { return a.frame.number < b.frame.number; });
+    std::vector<const CameraPairs*> all;
+    for (const auto& packet : packets)
+        for (const CameraPairs& seen : packet->cameras) all.push_back(&seen);
+    std::stable_sort(all.begin(), all.end(), [](const CameraPairs* a, const CameraPairs* b) {
+        return a->scene < b->scene;
+    });
     std::vector<SolveInput> inputs;
     std::vector<int> boards_so_far;
-    for (const auto& scene : scenes) {
-        for (const CameraPairs& seen : scene->cameras) {
-            auto input = std::find_if(inputs.begin(), inputs.end(), [&](const SolveInput& other) {
-                return other.camera == seen.camera && other.lidar == seen.lidar;
-            });
-            if (input == inputs.end()) {
-                SolveInput made;
-                made.camera = seen.camera;
-                made.lidar = seen.lidar;
-                made.model = seen.model;
-                inputs.push_back(made);
-                boards_so_far.push_back(0);
-                input = inputs.end() - 1;
-            } else if (!same_projection(input->model, seen.model)) {
-                throw Error(
-                    "camera '" + seen.camera + "' has other intrinsics in scene " +
-                    std::to_string(scene.frame.number) +
-                    " than before; give every scene of a camera the same intrinsics, or solve "
-                    "the scenes apart");
-            }
-            if (seen.pairs.empty()) continue;
-            if (input->pairs.empty() || worse(seen.order, input->order)) input->order = seen.order;
-            std::map<int, int> renumbered;
-            int& next = boards_so_far[static_cast<std::size_t>(input - inputs.begin())];
-            for (const PointPair& pair : seen.pairs) {
-                input->origins.push_back({scene.frame.number, pair.board, pair.corner});
-                input->pairs.push_back(pair);
-                if (pair.board < 0) continue;
-                const auto [entry, is_new] = renumbered.emplace(pair.board, next);
-                if (is_new) ++next;
-                input->pairs.back().board = entry->second;
-            }
-            input->initial.insert(input->initial.end(), seen.initial.begin(), seen.initial.end());
+    for (const CameraPairs* each : all) {
+        const CameraPairs& seen = *each;
+        auto input = std::find_if(inputs.begin(), inputs.end(), [&](const SolveInput& other) {
+            return other.camera == seen.camera && other.lidar == seen.lidar;
+        });
+        if (input == inputs.end()) {
+            SolveInput made;
+            made.camera = seen.camera;
+            made.lidar = seen.lidar;
+            made.model = seen.model;
+            inputs.push_back(made);
+            boards_so_far.push_back(0);
+            input = inputs.end() - 1;
+        } else if (!same_projection(input->model, seen.model)) {
+            throw Error("camera '" + seen.camera + "' has other intrinsics in scene " +
+                        std::to_string(seen.scene) +
+                        " than before; give every scene of a camera the same intrinsics, or solve "
+                        "the scenes apart");
         }
+        if (seen.pairs.empty()) continue;
+        if (input->pairs.empty() || worse(seen.order, input->order)) input->order = seen.order;
+        std::map<int, int> renumbered;
+        int& next = boards_so_far[static_cast<std::size_t>(input - inputs.begin())];
+        for (const PointPair& pair : seen.pairs) {
+            input->origins.push_back({seen.scene, pair.board, pair.corner});
+            input->pairs.push_back(pair);
+            if (pair.board < 0) continue;
+            const auto [entry, is_new] = renumbered.emplace(pair.board, next);
+            if (is_new) ++next;
+            input->pairs.back().board = entry->second;
+        }
+        // A matcher that decided over all scenes tells the same poses with each of them.
+        for (const Eigen::Isometry3d& pose : seen.initial)
+            if (std::none_of(input->initial.begin(), input->initial.end(),
+                             [&](const auto& known) { return known.matrix() == pose.matrix(); }))
+                input->initial.push_back(pose);
     }
     return inputs;
 }

@@ -28,17 +28,20 @@ struct SolveInput {
     std::string camera;
     std::string lidar;
     mrpt::img::TCamera model;
-    std::vector<PointPair> pairs;  ///< `board` counts over all scenes
-    std::vector<Origin> origins;   ///< of each pair
-    OrderDecision order;           ///< the worst of the scenes'
-    std::vector<Eigen::Isometry3d> initial;
+    std::vector<PointPair> pairs;            ///< `board` counts over all scenes
+    std::vector<Origin> origins;             ///< of each pair
+    OrderDecision order;                     ///< the worst of the scenes'
+    std::vector<Eigen::Isometry3d> initial;  ///< each once
 };
 
 /// The model to project with: without distortion where the pixels are rectified already.
 CameraModel camera_model(const mrpt::img::TCamera& camera, bool use_distortion);
 
+/// Whether two cameras project alike, to the bit.
+bool same_projection(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b);
+
 /// One input for each pair of labels, in the order of their first appearance; scenes in the order
-/// of their frame numbers. A camera without any pair is told with the LiDAR label that it came
+/// of CameraPairs::scene. A camera without any pair is told with the LiDAR label that it came
 /// with. \throws Error where a camera's intrinsics differ between scenes.
 std::vector<SolveInput> gather(const std::vector<Packet<Correspondences>>& packets);
 

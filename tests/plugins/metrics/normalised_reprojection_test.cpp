@@ -63,11 +63,15 @@ template <class S = NormalisedReprojectionMetric>
 StageHarness metric_of(const std::vector<Correspondences>& scenes, Extrinsics pose = known_pose()) {
     auto stage = StageHarness::of<S>();
     stage.template give<Extrinsics>("extrinsics", std::move(pose));
-    char name[] = "a";
-    for (const Correspondences& scene : scenes) {
-        stage.template give<Correspondences>("correspondences", scene, name);
-        ++name[0];
-    }
+    // One packet of all scenes, as the matcher writes it: "a", "b", ...
+    Correspondences all;
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+        for (CameraPairs camera : scenes[i].cameras) {
+            camera.scene = i;
+            camera.scene_name = static_cast<char>('a' + i);
+            all.cameras.push_back(std::move(camera));
+        }
+    stage.template give<Correspondences>("correspondences", all);
     return stage;
 }
 
@@ -149,7 +153,8 @@ TEST(NormalisedReprojectionMetric, CornersThatWereNotFoundAreBeyondTenPixels) {
 TEST(NormalisedReprojectionMetric, EveryCameraHasToFindThem) {
     Correspondences two = seen({missed_by(0.0, 0.0, 4.0)});
     two.cameras.push_back(seen({}, "REAR").cameras.front());
-    auto stage = metric_of({two, Correspondences{}});
+    auto stage = metric_of({two});
+    stage.give<Truth>("truth", boards(1), "a").give<Truth>("truth", boards(1), "b");
     stage.set("expected_corners", 2).fire();
     EXPECT_EQ(told_of(stage, "expected", "a"), 4.0);
     EXPECT_DOUBLE_EQ(*told_of(stage, "below_1px_share", "a"), 0.25);

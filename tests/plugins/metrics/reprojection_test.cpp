@@ -44,8 +44,11 @@ PointPair pair_off(double depth, Eigen::Vector2d error, int board) {
     return pair;
 }
 
-Correspondences scene(std::vector<PointPair> pairs) {
+Correspondences scene(std::vector<PointPair> pairs, std::uint64_t number = 0,
+                      std::string name = "") {
     CameraPairs seen;
+    seen.scene = number;
+    seen.scene_name = std::move(name);
     seen.camera = "CAMERA";
     seen.lidar = "LIDAR";
     seen.model = camera();
@@ -64,9 +67,9 @@ TEST(ReprojectionMetric, FiguresOfKnownErrors) {
     auto stage = StageHarness::of<ReprojectionMetric>("metric.reprojection");
     stage.give<Extrinsics>("extrinsics", identity());
     stage.give<Correspondences>(
-        "correspondences", scene({pair_off(2.0, {3.0, -4.0}, 0), pair_off(4.0, {0.0, 1.0}, -1)}),
-        "a");
-    stage.give<Correspondences>("correspondences", scene({pair_off(4.0, {0.0, 0.0}, 0)}), "b");
+        "correspondences",
+        scene({pair_off(2.0, {3.0, -4.0}, 0), pair_off(4.0, {0.0, 1.0}, -1)}, 0, "a"));
+    stage.give<Correspondences>("correspondences", scene({pair_off(4.0, {0.0, 0.0}, 0)}, 1, "b"));
     stage.fire();
     EXPECT_DOUBLE_EQ(*figure(stage, "count"), 3.0);
     EXPECT_NEAR(*figure(stage, "rms_px"), std::sqrt(26.0 / 3.0), 1e-12);

@@ -51,6 +51,7 @@ struct Example {
         }
         image.cameras.push_back({"CAMERA", {}});
         CameraPairs camera;
+        camera.scene_name = "hall";
         camera.camera = "CAMERA";
         camera.lidar = "LIDAR";
         camera.boards.emplace_back();
@@ -84,7 +85,7 @@ struct Example {
     StageHarness harness() const {
         StageHarness sink = StageHarness::of<ResultSink>();
         sink.give<Extrinsics>("extrinsics", extrinsics)
-            .give<Correspondences>("correspondences", pairs, "hall")
+            .give<Correspondences>("correspondences", pairs)
             .give<LidarBoards>("lidar_boards", lidar, "hall")
             .give<ImageBoards>("image_boards", image, "hall");
         return sink;
@@ -143,7 +144,7 @@ TEST(ResultSinkTest, BoardsOfGivenPairsAreToldWithoutADetectorsBoard) {
     example.pairs.cameras[0].boards.clear();  // as source.pairs writes them
     StageHarness sink = StageHarness::of<ResultSink>();
     sink.give<Extrinsics>("extrinsics", example.extrinsics)
-        .give<Correspondences>("correspondences", example.pairs, "hall");
+        .give<Correspondences>("correspondences", example.pairs);
     const json result = result_of(sink);
     ASSERT_EQ(result["scenes"][0]["boards"].size(), 1U);
     EXPECT_EQ(result["scenes"][0]["boards"][0]["corners_lidar"].size(), 16U);

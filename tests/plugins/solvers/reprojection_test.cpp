@@ -209,6 +209,7 @@ TEST(Reprojection, ScenesAreJoinedAndTheWorstOrderIsTold) {
     const auto camera = testing::indoor_camera();
     auto first = one_camera(camera, made_pairs(camera, 20, 0.1, 1));
     auto second = one_camera(camera, made_pairs(camera, 30, 0.1, 2));
+    second.cameras[0].scene = 1;
     second.cameras[0].order.by = DecidedBy::prior;
     second.cameras[0].order.reason = "only one board";
     auto stage = StageHarness::of<Reprojection>();
