@@ -59,6 +59,7 @@ void add_show(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_stages(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_plugins(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_inspect(CLI::App& app, const GlobalOptions& global, Action& action);
+void add_compare(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_schema(CLI::App& app, const GlobalOptions& global, Action& action);
 
 /// Loads all plugins of the search path. \throws Error on an unusable search path or a stage type

@@ -28,31 +28,52 @@ std::string hexadecimal(const unsigned char* bytes, std::size_t count) {
     return text;
 }
 
+/// BLAKE2b of what is added piece by piece.
+class Digest {
+   public:
+    Digest() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+        EVP_DigestInit_ex(context_.get(), EVP_blake2b512(), nullptr);
+    }
+    void add(const char* bytes, std::size_t count) {
+        EVP_DigestUpdate(context_.get(), bytes, count);
+    }
+    std::string finish() {
+        std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+        unsigned int length = 0;
+        EVP_DigestFinal_ex(context_.get(), digest.data(), &length);
+        return hexadecimal(digest.data(), length);
+    }
+
+   private:
+    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
 std::string hash_of(const std::filesystem::path& file, const std::atomic<bool>* cancel,
                     const std::atomic<bool>* abandoned) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw Error("cannot read " + file.string() + " for its checksum");
-    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
-                                                                          EVP_MD_CTX_free);
-    EVP_DigestInit_ex(context.get(), EVP_blake2b512(), nullptr);
+    Digest digest;
     std::vector<char> block(1 << 17);
     while (in) {
         for (const auto* stop : {cancel, abandoned})
             if (stop != nullptr && stop->load()) throw Cancelled();
         in.read(block.data(), static_cast<std::streamsize>(block.size()));
-        EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount()));
+        digest.add(block.data(), static_cast<std::size_t>(in.gcount()));
     }
     if (in.bad()) throw Error("reading " + file.string() + " for its checksum failed half-way");
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int length = 0;
-    EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-    return hexadecimal(digest.data(), length);
+    return digest.finish();
 }
 
 }  // namespace
 
 std::string blake2b_of(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
     return hash_of(file, cancel, nullptr);
+}
+
+std::string blake2b_of_text(std::string_view text) {
+    Digest digest;
+    digest.add(text.data(), text.size());
+    return digest.finish();
 }
 
 Checksums::Checksums(const std::atomic<bool>* cancel, bool while_running) : cancel_(cancel) {

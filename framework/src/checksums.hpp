@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace petal {
@@ -23,6 +24,9 @@ struct Checksum {
 /// \throws Error naming the file; Cancelled when `cancel` (may be null) is set meanwhile.
 std::string blake2b_of(const std::filesystem::path& file,
                        const std::atomic<bool>* cancel = nullptr);
+
+/// The same of a text.
+std::string blake2b_of_text(std::string_view text);
 
 /// Checksums of a run's data, on a thread of their own: data may be large, and the run need not
 /// wait for what does not concern it.

@@ -43,13 +43,13 @@ std::string shown(const fs::path& path) {
 void sync(const fs::path& path, int flags) {
     const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
     if (descriptor < 0)
-        throw Error("cannot write " + shown(path) + ": " + reason(errno) +
-                    "; check that the folder is writable");
+        throw WriteError("cannot write " + shown(path) + ": " + reason(errno) +
+                         "; check that the folder is writable");
     const int failed = ::fsync(descriptor) != 0 ? errno : 0;
     ::close(descriptor);
     // Some file systems cannot sync a folder and say so: that is no loss of content.
     if (failed != 0 && failed != EINVAL && failed != EROFS)
-        throw Error("cannot write " + shown(path) + ": " + reason(failed) + kFull);
+        throw WriteError("cannot write " + shown(path) + ": " + reason(failed) + kFull);
 }
 
 }  // namespace
@@ -58,13 +58,13 @@ void write_file(const fs::path& path, std::string_view content) {
     errno = 0;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     if (!file && errno == ENOSPC)
-        throw Error("cannot write " + shown(path) + ": " + reason(errno) + kFull);
+        throw WriteError("cannot write " + shown(path) + ": " + reason(errno) + kFull);
     if (!file)
-        throw Error("cannot write " + shown(path) + ": " + reason(errno) +
-                    "; check that the folder is writable");
+        throw WriteError("cannot write " + shown(path) + ": " + reason(errno) +
+                         "; check that the folder is writable");
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
-    if (!file) throw Error("cannot write " + shown(path) + ": " + reason(errno) + kFull);
+    if (!file) throw WriteError("cannot write " + shown(path) + ": " + reason(errno) + kFull);
 }
 
 PendingFile::PendingFile(fs::path final_path) : final_(std::move(final_path)) {
@@ -72,11 +72,11 @@ PendingFile::PendingFile(fs::path final_path) : final_(std::move(final_path)) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
-        throw Error("cannot make the folder " + folder.string() + ": " + error.message() +
-                    "; give another one with --out");
+        throw WriteError("cannot make the folder " + folder.string() + ": " + error.message() +
+                         "; give another one with --out");
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        throw Error("cannot write into the folder " + folder.string() + ": " + reason(errno) +
-                    "; give another one with --out");
+        throw WriteError("cannot write into the folder " + folder.string() + ": " + reason(errno) +
+                         "; give another one with --out");
     temporary_ = temporary_of(final_);
 }
 
@@ -94,10 +94,10 @@ PendingFile::~PendingFile() {
 void PendingFile::commit() {
     std::error_code error;
     if (!fs::exists(temporary_, error))
-        throw Error("nothing was written for " + final_.string() + kFull);
+        throw WriteError("nothing was written for " + final_.string() + kFull);
     sync(temporary_, O_RDONLY);
     fs::rename(temporary_, final_, error);
-    if (error) throw Error("cannot put " + final_.string() + " in place: " + error.message());
+    if (error) throw WriteError("cannot put " + final_.string() + " in place: " + error.message());
     committed_ = true;
     sync(final_.has_parent_path() ? final_.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
 }

@@ -42,16 +42,60 @@ class PipelineReader {
         JsonNode root;
         bool readable = read_document(pipeline, DocumentKind::pipeline, root);
         std::vector<JsonNode> changes;
-        for (const LoadedText& patch : patches) {
-            JsonNode change;
-            readable = read_document(patch, DocumentKind::patch, change) && readable;
-            changes.push_back(std::move(change));
+        for (const LoadedText& patch : patches) readable = add_text(patch, changes) && readable;
+        for (const std::string& option : request_.sets)
+            readable = add_set(option, changes) && readable;
+        return changed(root, changes, readable);
+    }
+
+    CheckedPipeline read(const LoadedText& pipeline, const std::vector<PipelineChange>& all) {
+        JsonNode root;
+        bool readable = read_document(pipeline, DocumentKind::pipeline, root);
+        std::vector<JsonNode> changes;
+        for (const PipelineChange& one : all) {
+            if (one.patch) {
+                readable = add_node(one, changes) && readable;
+            } else if (!one.set.empty()) {
+                readable = add_set(one.set, changes) && readable;
+            } else {
+                readable = add_text(load(one.file), changes) && readable;
+            }
         }
-        for (const std::string& option : request_.sets) {
-            auto change = read_set_option(option, problems_.add_file("--set"), problems_);
-            readable = readable && change;
-            if (change) changes.push_back(std::move(*change));
-        }
+        return changed(root, changes, readable);
+    }
+
+   private:
+    bool add_text(const LoadedText& patch, std::vector<JsonNode>& changes) {
+        JsonNode change;
+        const bool readable = read_document(patch, DocumentKind::patch, change);
+        changes.push_back(std::move(change));
+        return readable;
+    }
+
+    bool add_set(const std::string& option, std::vector<JsonNode>& changes) {
+        auto change = read_set_option(option, problems_.add_file("--set"), problems_);
+        if (change) changes.push_back(std::move(*change));
+        return change.has_value();
+    }
+
+    bool add_node(const PipelineChange& one, std::vector<JsonNode>& changes) {
+        const std::size_t file = problems_.add_file(one.file);
+        JsonNode change = *one.patch;
+        const auto relocate = [&](auto&& self, JsonNode& node) -> void {
+            node.origin.file = file;
+            for (JsonNode& element : node.elements) self(self, element);
+            for (JsonMember& member : node.members) {
+                member.origin.file = file;
+                self(self, member.value);
+            }
+        };
+        relocate(relocate, change);
+        const bool right = check_shape(change, DocumentKind::patch, problems_);
+        changes.push_back(std::move(change));
+        return right;
+    }
+
+    CheckedPipeline changed(JsonNode& root, const std::vector<JsonNode>& changes, bool readable) {
         // Without one of the texts, most of what could be said of the rest would be wrong.
         CheckedPipeline checked;
         if (readable) {
@@ -63,7 +107,6 @@ class PipelineReader {
         return checked;
     }
 
-   private:
     bool read_document(const LoadedText& loaded, DocumentKind kind, JsonNode& root) {
         const std::size_t file = problems_.add_file(loaded.document.name);
         if (!loaded.fault.empty()) {
@@ -185,6 +228,12 @@ CheckedPipeline read_pipeline_texts(const PipelineText& pipeline,
     loaded.reserve(patches.size());
     for (const PipelineText& patch : patches) loaded.push_back({patch, ""});
     return PipelineReader(request, registry).read({pipeline, ""}, loaded);
+}
+
+CheckedPipeline read_changed_pipeline(const PipelineRequest& request,
+                                      const std::vector<PipelineChange>& changes,
+                                      const Registry& registry) {
+    return PipelineReader(request, registry).read(load(request.file), changes);
 }
 
 }  // namespace petal

@@ -41,6 +41,8 @@ SourceProgress RunRecorder::progress_of(const std::string& stage) const {
 
 void RunRecorder::used_file(const std::filesystem::path& path) {
     if (settings_.checksums != nullptr) settings_.checksums->add(path.lexically_normal());
+    const std::lock_guard<std::mutex> lock(mutex_);
+    used_paths_.insert(path.lexically_normal());
 }
 
 void RunRecorder::claim_product(const std::string& stage, const std::filesystem::path& name) {
@@ -76,6 +78,7 @@ void RunRecorder::fill(RunReport& report, const Pipeline& pipeline) {
         [&](const ToldVerdict& a, const ToldVerdict& b) { return rank[a.stage] < rank[b.stage]; });
     report.notes = std::move(notes_);
     report.verdicts = std::move(verdicts_);
+    report.used_paths = std::move(used_paths_);
     for (const auto& [name, stage] : products_) report.products.push_back(name);
 }
 

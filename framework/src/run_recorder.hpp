@@ -5,6 +5,7 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,7 @@ class RunRecorder final : public RunServices {
     std::vector<ToldNote> notes_;
     std::vector<ToldVerdict> verdicts_;
     std::map<std::filesystem::path, std::string> products_;  ///< whose each is
+    std::set<std::filesystem::path> used_paths_;
 };
 
 }  // namespace petal

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,12 +50,14 @@ struct RunReport {
     std::vector<ToldVerdict> verdicts;
     std::map<std::string, StageStatistics> stages;
     std::map<std::filesystem::path, Checksum> used_files;  ///< by add_checksums()
+    std::set<std::filesystem::path> used_paths;            ///< the same files, as they were told
     std::vector<std::filesystem::path> products;           ///< relative to the run folder, sorted
     std::uint64_t frames = 0;
     int threads = 1;
     double wall_s = 0.0;
     double cpu_s = 0.0;
     std::uint64_t peak_memory_bytes = 0;
+    bool write_failed = false;  ///< an error is the disk's, not the pipeline's
 
     /// The worst level told. None where no stage judged, or the run did not come to its end.
     std::optional<Level> level() const;

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "checksums.hpp"
+#include "firing_tape.hpp"
 #include "pipeline.hpp"
 #include "run_log.hpp"
 #include "run_progress.hpp"
@@ -29,6 +31,10 @@ struct RunSettings {
     std::function<void(const RunProgress&)> on_progress;
     Checksums* checksums = nullptr;             ///< given the files that stages use; may be null
     const std::atomic<bool>* cancel = nullptr;  ///< set from a signal handler; may be null
+    /// By stage id: stages that do not fire, since another run has done the same; and tapes to fill
+    /// for later runs. A stage is in one of them at most.
+    std::map<std::string, const FiringTape*> played;
+    std::map<std::string, FiringTape*> taped;
 };
 
 /// Runs a checked pipeline: stages as tasks over the graph, each instance in frame order on one

@@ -10,19 +10,12 @@
 #include <map>
 #include <utility>
 
-#include "plain_message.hpp"
-
 namespace petal {
 
 namespace {
 
 /// What it costs to wake another thread for a firing, roughly. Shorter ones are not handed over.
 constexpr double kHandOver = 5e-6;  // s
-
-std::string frame_text(const FrameInfo& frame) {
-    return "frame " + std::to_string(frame.number) +
-           (frame.name.empty() ? "" : " '" + frame.name + "'");
-}
 
 }  // namespace
 
@@ -39,7 +32,20 @@ Scheduler::Scheduler(const Pipeline& pipeline, const RunSettings& settings, RunR
             fail(stage, "while it was made", "threw something that is no std::exception");
         }
     }
+    find_tapes(settings);
     if (failures_.empty()) connect_nodes();
+}
+
+void Scheduler::find_tapes(const RunSettings& settings) {
+    for (const RunNode& node : nodes_) {
+        Taping taping;
+        const std::string& id = node.definition().id;
+        if (const auto found = settings.played.find(id); found != settings.played.end())
+            taping.play = found->second;
+        if (const auto found = settings.taped.find(id); found != settings.taped.end())
+            taping.fill = found->second;
+        tapings_.push_back(taping);
+    }
 }
 
 void Scheduler::connect_nodes() {
@@ -157,42 +163,6 @@ void Scheduler::work() {
     }
 }
 
-Scheduler::Outcome Scheduler::fire(Job& job) {
-    RunNode& node = *job.node;
-    const bool once = node.definition().once;
-    Outcome outcome;
-    auto frame = node.frame_of(job.inputs);
-    Firing firing(node.spec(), node.definition().id, std::move(frame), once ? 0 : node.fired(),
-                  std::move(job.inputs), recorder_);
-    const auto start = std::chrono::steady_clock::now();
-    try {
-        // A stage that waits for tasks of its own must not be given another stage meanwhile.
-        tbb::this_task_arena::isolate([&] {
-            if (job.work == RunNode::Work::run) {
-                node.stage().run(firing);
-            } else {
-                node.stage().finish(firing);
-            }
-        });
-        if (job.work == RunNode::Work::run || node.gathers()) {
-            outcome.outputs = firing.take_outputs();
-        } else {
-            firing.expect_no_outputs();
-        }
-    } catch (const Cancelled&) {
-        outcome.cancelled = true;
-    } catch (const std::exception& thrown) {
-        outcome.failure = plain_message(thrown.what());
-    } catch (...) {
-        outcome.failure = "threw something that is no std::exception";
-    }
-    outcome.wall_s = seconds_since(start);
-    outcome.source_ended = firing.ended();
-    if (!outcome.failure.empty() && job.work == RunNode::Work::run && !once)
-        outcome.where = frame_text(firing.frame());
-    return outcome;
-}
-
 /// Hands on what a firing gave, and schedules whoever can work now.
 void Scheduler::settle(RunNode& node, RunNode::Work work, Outcome& outcome) {
     node.busy = false;
@@ -204,6 +174,7 @@ void Scheduler::settle(RunNode& node, RunNode::Work work, Outcome& outcome) {
     }
     if (!outcome.failure.empty()) {
         fail(node.definition(), outcome.where, outcome.failure);
+        write_failed_ = write_failed_ || outcome.write_failed;
         return;
     }
     if (node.gathers() || (work == RunNode::Work::run && !outcome.source_ended))
@@ -274,6 +245,7 @@ void Scheduler::fill(RunReport& report) {
                                        : RunStatus::done;
     std::sort(failures_.begin(), failures_.end());
     report.errors = failures_;
+    report.write_failed = write_failed_;
 }
 
 }  // namespace petal

@@ -13,10 +13,12 @@
 #include <vector>
 
 #include "firing_clock.hpp"
+#include "firing_tape.hpp"
 #include "run_node.hpp"
 #include "run_progress.hpp"
 #include "run_recorder.hpp"
 #include "run_report.hpp"
+#include "runner.hpp"
 
 namespace petal {
 
@@ -54,7 +56,14 @@ class Scheduler {
         std::string where;    ///< the frame, for the message
         bool cancelled = false;
         bool source_ended = false;
+        bool write_failed = false;
         double wall_s = 0.0;
+    };
+    /// Where a stage's tape is, if there is one.
+    struct Taping {
+        const FiringTape* play = nullptr;
+        std::size_t next = 0;  ///< of the firings to play
+        FiringTape* fill = nullptr;
     };
     struct Ready {
         RunNode* node = nullptr;
@@ -62,12 +71,17 @@ class Scheduler {
     };
 
     void connect_nodes();
+    void find_tapes(const RunSettings& settings);
     void find_followers(RunNode& source);
     bool may_emit(const RunNode& source) const;
 
     /// A worker: takes jobs until none is left.
     void work();
     Outcome fire(Job& job);
+    /// Fires the stage itself.
+    void fire_stage(Job& job, Firing& firing, Outcome& outcome) const;
+    /// Gives what a tape has instead.
+    Outcome play(Taping& taping);
 
     // Under the lock:
     void fail(const StageNode& stage, const std::string& where, const std::string& what);
@@ -85,12 +99,14 @@ class Scheduler {
     /// Of each source, by its index: the stages that it feeds frame by frame, also through others.
     std::vector<std::vector<const RunNode*>> followers_;
     std::vector<RunNode*> sources_;
+    std::vector<Taping> tapings_;  ///< by node
     std::mutex mutex_;
     std::vector<Ready> ready_;  // the last one goes first
     int workers_ = 0;
     tbb::task_group tasks_;
     std::vector<std::string> failures_;
     bool cancelled_ = false;
+    bool write_failed_ = false;
 };
 
 }  // namespace petal

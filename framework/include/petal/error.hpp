@@ -15,6 +15,12 @@ class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A file could not be written: the disk's fault, not the stage's or its input's.
+class WriteError : public Error {
+   public:
+    using Error::Error;
+};
+
 /// Thrown by Run::check_cancelled(): the user asked the run to end. Not an error of the stage.
 class Cancelled : public std::runtime_error {
    public:

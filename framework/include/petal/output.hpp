@@ -9,7 +9,7 @@
 namespace petal {
 
 /// Writes `content` to `path`, replacing what is there. For the path that Run::save and Run::output
-/// hand out. \throws Error naming the file (by the name that it gets in the end) when it cannot be
+/// hand out. \throws WriteError naming the file (by the name that it gets in the end) when it cannot be
 /// opened, or the disk is full.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
@@ -18,7 +18,7 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// work); commit() flushes it to disk and renames it. Without commit() the destructor removes it.
 class PendingFile {
    public:
-    /// Makes the parent folders. \throws Error, naming the folder, when it cannot be written to.
+    /// Makes the parent folders. \throws WriteError, naming the folder, when it cannot be written to.
     explicit PendingFile(std::filesystem::path final_path);
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
@@ -29,7 +29,7 @@ class PendingFile {
 
     const std::filesystem::path& path() const { return temporary_; }
     const std::filesystem::path& final_path() const { return final_; }
-    /// \throws Error when the file was not written, or the disk is full.
+    /// \throws WriteError when the file was not written, or the disk is full.
     void commit();
 
    private:
