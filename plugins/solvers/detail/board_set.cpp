@@ -17,9 +17,16 @@ namespace {
 // Loosely, since one board alone places the others badly: a centre within one and a half radii,
 // and the rotation that then fits best about the centres.
 constexpr double kLooseRadii = 1.5;
+/// A match that is off by so many radii counts half: among poses, one that explains some boards
+/// well comes before one that explains more of them loosely, as posters invite to.
+constexpr double kHalfRadii = 0.3;
+
+double saturating(double square) {
+    return square / (square + kHalfRadii * kHalfRadii);
+}
 
 template <class Point>
-Point mean_of(const std::vector<Point>& corners) {
+Point corner_mean(const std::vector<Point>& corners) {
     Point sum = Point::Zero();
     for (const auto& corner : corners) sum += corner;
     return sum / static_cast<double>(corners.size());
@@ -32,7 +39,7 @@ Eigen::Isometry3d turn_of(const LidarBoard& board, const CornerOrder& order, std
     std::vector<Eigen::Vector3d> flat;
     flat.reserve(board.corners.size());
     for (const auto& corner : board.corners) flat.push_back(T_board_lidar * corner);
-    const Eigen::Vector3d centre = mean_of(flat);
+    const Eigen::Vector3d centre = corner_mean(flat);
     double sine = 0.0, cosine = 0.0;
     for (std::size_t i = 0; i < flat.size(); ++i) {
         const Eigen::Vector2d from = (flat[i] - centre).head<2>();
@@ -62,7 +69,7 @@ void BoardSet::add_scene(const LidarBoards* lidar, const ImageBoards& images,
         seen.rotations = board_rotations(board.corners);
         for (const CornerOrder& order : seen.rotations)
             seen.turns.push_back(turn_of(board, order, seen.rotations.size()));
-        seen.centre = mean_of(board.corners);
+        seen.centre = corner_mean(board.corners);
         scene.lidar.push_back(lidar_.size());
         lidar_.push_back(std::move(seen));
     }
@@ -71,7 +78,7 @@ void BoardSet::add_scene(const LidarBoards* lidar, const ImageBoards& images,
         seen.scene = scenes_.size();
         seen.index = i;
         seen.board = &images.boards[static_cast<std::size_t>(i)];
-        seen.centre = mean_of(seen.board->corners);
+        seen.centre = corner_mean(seen.board->corners);
         for (const auto& corner : seen.board->corners)
             seen.radius = std::max(seen.radius, (corner - seen.centre).norm());
         scene.image.push_back(image_.size());
@@ -153,6 +160,7 @@ BoardSet::Explained BoardSet::explained(const Eigen::Isometry3d& pose) const {
         Eigen::MatrixXd cost =
             Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(scene.lidar.size()),
                                       static_cast<Eigen::Index>(scene.image.size()), infinity);
+        Eigen::MatrixXd shape = cost;  // what is left about the centres
         std::vector<std::vector<int>> rotation(scene.lidar.size(),
                                                std::vector<int>(scene.image.size(), 0));
         for (std::size_t l = 0; l < scene.lidar.size(); ++l) {
@@ -166,7 +174,7 @@ BoardSet::Explained BoardSet::explained(const Eigen::Isometry3d& pose) const {
                 projected.push_back(*pixel);
             }
             if (projected.size() != seen.board->corners.size()) continue;
-            const Eigen::Vector2d middle = mean_of(projected);
+            const Eigen::Vector2d middle = corner_mean(projected);
             for (std::size_t b = 0; b < scene.image.size(); ++b) {
                 if (!alike(scene.lidar[l], scene.image[b])) continue;
                 const FromImage& other = image_[scene.image[b]];
@@ -186,16 +194,19 @@ BoardSet::Explained BoardSet::explained(const Eigen::Isometry3d& pose) const {
                     least = squares;
                     rotation[l][b] = static_cast<int>(r);
                 }
+                shape(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(b)) =
+                    least / (static_cast<double>(projected.size()) * other.radius * other.radius);
             }
         }
         const auto columns = assign(cost, kLooseRadii * kLooseRadii);
         for (std::size_t l = 0; l < columns.size(); ++l) {
             if (columns[l] < 0) {
-                result.misfit += kLooseRadii * kLooseRadii;
+                result.misfit += 1.0;
                 continue;
             }
             const auto b = static_cast<std::size_t>(columns[l]);
-            result.misfit += cost(static_cast<Eigen::Index>(l), columns[l]);
+            const auto row = static_cast<Eigen::Index>(l);
+            result.misfit += saturating(cost(row, columns[l]) + shape(row, columns[l]));
             result.matches.push_back({static_cast<int>(scene.lidar[l]),
                                       static_cast<int>(scene.image[b]), rotation[l][b]});
         }

@@ -88,7 +88,8 @@ class BoardSet {
     /// boards, never a product over them.
     struct Explained {
         std::vector<BoardMatch> matches;  ///< by LiDAR board
-        double misfit = 0.0;  ///< sum of squared distances in radii; a board without counts 1.5^2
+        double misfit =
+            0.0;  ///< sum over LiDAR boards, 0 (explained exactly) to 1 (not at all) each
     };
     Explained explained(const Eigen::Isometry3d& pose) const;
 

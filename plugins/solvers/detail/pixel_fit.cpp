@@ -13,7 +13,7 @@
 namespace petal {
 namespace {
 
-constexpr int kSteps = 60;
+constexpr int kPixelSteps = 60;
 constexpr double kSmallestGain = 1e-12;  // of the cost
 
 struct PixelEquations {
@@ -51,7 +51,7 @@ std::optional<PixelFit> fit_pixels(const CameraModel& model, const std::vector<P
     auto now = linearise_pixels(model, pairs, pose);
     if (!now) return std::nullopt;
     double damping = 1e-4;
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kPixelSteps; ++step) {
         Matrix6d damped = now->information;
         damped.diagonal() *= 1.0 + damping;
         damped.diagonal().array() += 1e-12;
