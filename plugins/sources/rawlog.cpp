@@ -17,6 +17,13 @@ namespace petal {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Enough that neither side waits for the other at each message; each may be a whole scene.
+constexpr std::size_t kReadAhead = 4;
+
+}  // namespace
+
 void RawlogSource::describe(Spec<Params>& spec) {
     spec.summary("Reads scenes from MRPT rawlogs: one LiDAR's points and an image of each camera.");
     spec.doc(
@@ -75,7 +82,7 @@ scenes are numbered.)");
 
 void RawlogSource::open(Run& run) {
     const fs::path& file = params_.files[next_file_++];
-    reader_ = std::make_unique<RawlogReader>(file);
+    reader_ = std::make_unique<RawlogReadAhead>(file, run.threads() > 1 ? kReadAhead : 0);
     run.used_file(file);
     sensors_ = {};
     held_ = nullptr;

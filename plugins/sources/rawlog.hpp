@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "petal/rawlog/rawlog_reader.hpp"
+#include "petal/rawlog/rawlog_read_ahead.hpp"
 #include "petal/run.hpp"
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
@@ -50,7 +50,7 @@ class RawlogSource final : public Stage {
 
     Params params_;
     std::size_t next_file_ = 0;
-    std::unique_ptr<RawlogReader> reader_;
+    std::unique_ptr<RawlogReadAhead> reader_;
     SensorList sensors_;
     mrpt::obs::CObservation::Ptr held_;  ///< read already, the first of the next scene
     std::optional<double> latest_;       ///< s, the latest stamp of the scene in work

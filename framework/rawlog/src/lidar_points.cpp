@@ -34,10 +34,17 @@ void append(const CObservationPointCloud& cloud, CPointsMapXYZI& points) {
     const auto& xs = from.getPointsBufferRef_x();
     const auto& ys = from.getPointsBufferRef_y();
     const auto& zs = from.getPointsBufferRef_z();
-    points.reserve(points.size() + from.size());
-    for (std::size_t i = 0; i < from.size(); ++i)
-        add(points, xs[i], ys[i], zs[i],
-            with_intensity != nullptr ? with_intensity->getPointIntensity(i) : 0.0F);
+    // Not reserve(): it makes room for exactly so many, and a scene of many messages would be
+    // copied at each of them. resize() doubles the room.
+    const std::size_t begin = points.size();
+    points.resize(begin + from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        points.setPointFast(begin + i, xs[i], ys[i], zs[i]);
+        points.setPointColor_fast(
+            begin + i,
+            with_intensity != nullptr ? with_intensity->getPointsBufferRef_intensity()[i] : 0.0F,
+            0.0F, 0.0F);
+    }
 }
 
 void append(CObservation3DRangeScan& scan, CPointsMapXYZI& points) {
