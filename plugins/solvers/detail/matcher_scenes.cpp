@@ -62,15 +62,23 @@ std::vector<MatcherCamera> matcher_cameras(const std::vector<Packet<LidarBoards>
     std::string label;  // of scenes where the LiDAR's packet is missing or tells none
     for (const auto& packet : lidar) {
         check(*packet, packet.frame);
-        by_frame[packet.frame.number] = packet.value.get();
+        if (!by_frame.emplace(packet.frame.number, packet.value.get()).second)
+            throw Error(scene_text(packet.frame) +
+                        " has LiDAR boards from two wires; wire one LiDAR's detector to 'lidar'");
         if (label.empty()) label = packet->lidar;
     }
     std::vector<Packet<ImageBoards>> scenes = image;
     std::stable_sort(scenes.begin(), scenes.end(),
                      [](const auto& a, const auto& b) { return a.frame.number < b.frame.number; });
     std::vector<MatcherCamera> cameras;
+    const FrameInfo* last = nullptr;
     for (const auto& packet : scenes) {
         check(*packet, packet.frame);
+        if (last != nullptr && last->number == packet.frame.number)
+            throw Error(scene_text(packet.frame) +
+                        " has image boards from two wires; wire one detector, which tells all "
+                        "cameras, to 'image'");
+        last = &packet.frame;
         const auto at = by_frame.find(packet.frame.number);
         const LidarBoards* seen = at == by_frame.end() ? nullptr : at->second;
         for (const CameraInfo& info : packet->cameras) {

@@ -86,7 +86,9 @@ OrderChoice Contest::fill(const BoardOrder& taken, DecidedBy by, std::string rea
     if (const BoardOrder* other = best_other(rivals_, taken)) {
         // As compared with min_runner_up_ratio: with the floor.
         choice.decision.runner_up_rms_ratio = ratio(*other, taken);
-        choice.decision.runner_up_chi2 = chi2(*other).chi2 - chi2(taken).chi2;
+        // A pose explains the six numbers of one board exactly, whatever its order.
+        if (taken.matches.size() > 1)
+            choice.decision.runner_up_chi2 = chi2(*other).chi2 - chi2(taken).chi2;
     }
     choice.decision.reason = std::move(reason);
     return choice;

@@ -10,51 +10,21 @@
 
 #include "petal/error.hpp"
 #include "petal/testing/stage_harness.hpp"
+#include "plugins/solvers/joint_match.hpp"
 #include "plugins/solvers/made_rig.hpp"
-#include "solvers/board_matcher.hpp"
-#include "solvers/detail/order_chi2.hpp"
 
 namespace petal {
 namespace {
 
+using testing::boards_in;
 using ::testing::HasSubstr;
 using testing::MadeRig;
+using testing::match_jointly;
+using testing::matcher_of;
+using testing::one_board_each;
 using testing::Placement;
+using testing::Scenes;
 using testing::StageHarness;
-using Scenes = std::vector<MadeRig::Seen>;
-
-/// One board a scene, the LiDAR's corner order turned at will.
-Scenes one_board_each(MadeRig& rig, const std::vector<Placement>& places) {
-    Scenes scenes;
-    for (const Placement& place : places) {
-        scenes.push_back(rig.scene());
-        rig.add(scenes.back(), place, true, true, static_cast<int>(rig.random()() % 4));
-    }
-    return scenes;
-}
-
-StageHarness matcher_of(const Scenes& scenes, bool priors) {
-    auto stage = StageHarness::of<BoardMatcher>("solver.board_matcher");
-    stage.set("upright", priors).set("use_max_baseline", priors);
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        const std::string name = "place_" + std::to_string(i);
-        stage.give<LidarBoards>("lidar", scenes[i].lidar, name);
-        stage.give<ImageBoards>("image", scenes[i].image, name);
-    }
-    return stage;
-}
-
-std::vector<CameraPairs> match_jointly(const Scenes& scenes, bool priors = false) {
-    auto stage = matcher_of(scenes, priors);
-    stage.fire();
-    return stage.out<Correspondences>("correspondences").cameras;
-}
-
-std::size_t boards_in(const std::vector<CameraPairs>& cameras) {
-    std::size_t boards = 0;
-    for (const CameraPairs& camera : cameras) boards += camera.boards.size();
-    return boards;
-}
 
 TEST(JointOrder, DiversePlacementsAreDecidedByTheDataAndRight) {
     for (const auto& places : {testing::three_yaw(), testing::four_diverse()})
@@ -202,16 +172,27 @@ TEST(JointOrder, TargetsAreNotMixed) {
     }
 }
 
-TEST(JointOrder, OtherIntrinsicsInASceneAreRefused) {
+TEST(JointOrder, OtherIntrinsicsAndTwoWiresInASceneAreRefused) {
     MadeRig rig(1);
     auto scenes = one_board_each(rig, testing::three_yaw());
+    const auto message = [](StageHarness stage) -> std::string {
+        try {
+            stage.fire();
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "matched";
+    };
+    const FrameInfo second{1, "place_1", 0.0};
+    auto stage = matcher_of(scenes, true);
+    stage.give_packet("lidar", make_packet(scenes[1].lidar, second));
+    EXPECT_THAT(message(std::move(stage)), HasSubstr("scene 'place_1' has LiDAR boards from two"));
+    stage = matcher_of(scenes, true);
+    stage.give_packet("image", make_packet(scenes[1].image, second));
+    EXPECT_THAT(message(std::move(stage)), HasSubstr("scene 'place_1' has image boards from two"));
     scenes[2].image.cameras[0].camera.fx(930.0);
-    try {
-        match_jointly(scenes);
-        FAIL() << "matched";
-    } catch (const Error& e) {
-        EXPECT_THAT(e.what(), HasSubstr("place_2"));
-    }
+    EXPECT_THAT(message(matcher_of(scenes, true)),
+                HasSubstr("other intrinsics in scene 'place_2'"));
 }
 
 TEST(JointOrder, TooLittleNoiseToldDoesNotUndoAnOrderThatNothingComesNear) {
@@ -224,75 +205,6 @@ TEST(JointOrder, TooLittleNoiseToldDoesNotUndoAnOrderThatNothingComesNear) {
     const auto cameras = match_jointly(one_board_each(rig, testing::four_diverse()));
     EXPECT_EQ(cameras.at(0).order.by, DecidedBy::data);
     EXPECT_THAT(cameras[0].order.reason, HasSubstr("more than noise"));
-}
-
-TEST(JointOrder, BoardPairsHaveTheCamerasOrder) {
-    MadeRig rig(7);
-    const auto scenes = one_board_each(rig, testing::four_diverse());
-    const auto cameras = match_jointly(scenes);
-    for (std::size_t s = 0; s < scenes.size(); ++s) {
-        ASSERT_EQ(cameras.at(s).boards.size(), 1U);
-        const CameraPairs::BoardPair& pair = cameras[s].boards[0];
-        ASSERT_EQ(pair.corners_board.size(), 16U);
-        const LidarBoard& lidar = scenes[s].lidar.boards[0];
-        EXPECT_EQ(*pair.pose_covariance, *lidar.covariance);
-        for (std::size_t i = 0; i < 16; ++i) {
-            // Of the target, row by row, to rounding.
-            const Eigen::Vector3d target(0.1 * static_cast<double>(1 + i % 4),
-                                         0.1 * static_cast<double>(1 + i / 4), 0.0);
-            EXPECT_LT((pair.corners_board[i] - target).norm(), 1e-9);
-            EXPECT_LT((pair.T_lidar_board * target - cameras[s].pairs[i].lidar).norm(), 1e-9);
-            EXPECT_EQ(pair.corners_image[i], scenes[s].image.boards[0].corners[i]);
-        }
-        // Turned in its plane about its centre, so this and the normal stay.
-        const Eigen::Vector3d centre(0.25, 0.25, 0.0);
-        EXPECT_LT((pair.T_lidar_board * centre - lidar.T_lidar_board * centre).norm(), 1e-9);
-        EXPECT_GT(pair.T_lidar_board.linear().col(2).dot(lidar.T_lidar_board.linear().col(2)),
-                  1.0 - 1e-9);
-        EXPECT_EQ(pair.image_covariance, scenes[s].image.boards[0].joint_covariance);
-    }
-}
-
-TEST(JointOrder, WithoutAJointCovarianceTheCornersOwnIsTold) {
-    MadeRig rig(7);
-    auto scenes = one_board_each(rig, testing::three_yaw());
-    for (auto& scene : scenes) {
-        scene.image.boards[0].joint_covariance.resize(0, 0);
-        scene.lidar.boards[0].covariance.reset();
-    }
-    scenes[0].image.boards[0].covariance[3] << 2.0, 0.5, 0.5, 1.0;
-    const auto cameras = match_jointly(scenes);
-    const CameraPairs::BoardPair& pair = cameras.at(0).boards.at(0);
-    EXPECT_FALSE(pair.pose_covariance);
-    ASSERT_EQ(pair.image_covariance.rows(), 32);
-    EXPECT_EQ(pair.image_covariance(6, 7), 0.5);
-    EXPECT_EQ(pair.image_covariance(6, 6), 2.0);
-    EXPECT_EQ(pair.image_covariance(6, 8), 0.0);
-}
-
-TEST(JointOrder, ChiSquareIsThatOfItsDegreesOfFreedom) {
-    // 200 sets of four boards have a mean of 18 with a standard error of 0.42; bound: four of them.
-    double sum = 0.0;
-    constexpr int kSets = 200;
-    for (unsigned seed = 1; seed <= kSets; ++seed) {
-        MadeRig rig(seed);
-        const CameraModel model(rig.camera());
-        BoardSet boards(model, GateParams{});
-        Scenes scenes;
-        for (const Placement& place : testing::four_diverse()) {
-            scenes.push_back(rig.scene());
-            rig.add(scenes.back(), place);
-        }
-        std::vector<BoardMatch> matches;
-        for (const auto& scene : scenes) {
-            matches.push_back({static_cast<int>(matches.size()), static_cast<int>(matches.size())});
-            boards.add_scene(&scene.lidar, scene.image, {0});
-        }
-        const OrderChi2 chi2 = order_chi2(boards, matches, rig.T_camera_lidar(), 0.005);
-        EXPECT_EQ(chi2.degrees_of_freedom, 18);
-        sum += chi2.chi2;
-    }
-    EXPECT_NEAR(sum / kSets, 18.0, 1.7);
 }
 
 }  // namespace
