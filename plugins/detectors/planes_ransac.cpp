@@ -9,29 +9,11 @@
 #include <string>
 #include <utility>
 
+#include "petal/calibration/cloud_subset.hpp"
 #include "petal/printed.hpp"
 
 namespace petal {
 namespace {
-
-/// The points of a patch as a cloud of its own.
-Cloud take(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
-    Cloud taken;
-    taken.sensor_label = cloud.sensor_label;
-    taken.sensor_pose = cloud.sensor_pose;
-    auto points = mrpt::maps::CPointsMapXYZI::Create();
-    points->reserve(indices.size());
-    taken.scene_index.reserve(indices.size());
-    for (const std::uint32_t i : indices) {
-        float x, y, z;
-        cloud.points->getPoint(i, x, y, z);
-        points->insertPointFast(x, y, z);
-        points->setPointIntensity(points->size() - 1, cloud.points->getPointIntensity_fast(i));
-        taken.scene_index.push_back(cloud.scene_index.empty() ? i : cloud.scene_index[i]);
-    }
-    taken.points = std::move(points);
-    return taken;
-}
 
 std::string millimetres(double metres) {
     return printed("%.1f mm", metres * 1e3);
@@ -124,7 +106,7 @@ void PlanesRansac::run(Run& run) {
         plane.offset = patch->fit.offset;
         plane.covariance = patch->fit.covariance;
         plane.rms = patch->fit.rms;
-        plane.inliers = take(cloud, patch->inliers);
+        plane.inliers = subset(cloud, patch->inliers);
         run.log(LogLevel::debug, "plane " + std::to_string(planes.planes.size()) + ": " +
                                      std::to_string(patch->inliers.size()) + " points, rms " +
                                      millimetres(plane.rms) + ", " +

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "filters/detail/cloud_subset.hpp"
-#include "filters/detail/for_pieces.hpp"
 #include "filters/detail/space_cells.hpp"
+#include "filters/detail/write_subset.hpp"
 #include "petal/calibration/angles.hpp"
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/printed.hpp"
 
 namespace petal {

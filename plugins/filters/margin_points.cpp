@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "filters/detail/angular_cells.hpp"
-#include "filters/detail/cloud_subset.hpp"
 #include "filters/detail/margin_cells.hpp"
 #include "filters/detail/range_noise.hpp"
+#include "filters/detail/write_subset.hpp"
 #include "petal/calibration/angles.hpp"
 #include "petal/calibration/cloud.hpp"
 #include "petal/printed.hpp"
@@ -45,7 +45,7 @@ Where the letter is silent, or its cells alone do not do (docs/margin_points.md 
   either side tell. Where both sides bend away, the flatter side's counts; else an edge must be one with each slope. So
   floors and walls at grazing angles have none.
 - **Surface or smear.** A frontier needs `min_points` points within two sigma, and twice the density of the strip behind it; vacant
-  points between a board and a wall spread evenly and fail. At least two points, and one in 200, must lie behind it by the threshold.
+  points between a board and a wall spread evenly and fail. At least two points must lie behind it by the threshold.
 
 `window` 0 with a step and a threshold given is the letter's cell as it stands, but for slant and smear. Table I of the
 letter: 0.2 m for boards before a distant background; boards nearer than that to a wall have no margin then.
@@ -89,7 +89,7 @@ void MarginPoints::run(Run& run) {
                           0.5 * p_.beam_deg * degree, 1.5 * p_.beam_deg * degree);
     }
     const AngularCells cells(*cloud.points, step, run);
-    const auto measured = range_noise(cells);
+    const auto measured = range_noise(cells, run);
     const double noise = std::max(measured.value_or(kAssumedNoise), kLeastNoise);
     const double threshold = p_.range_threshold > 0.0 ? p_.range_threshold : kSigmas * noise;
     MarginSettings settings;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "filters/detail/angular_cells.hpp"
-#include "filters/detail/cloud_subset.hpp"
-#include "filters/detail/for_pieces.hpp"
+#include "filters/detail/write_subset.hpp"
 #include "petal/calibration/angles.hpp"
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/printed.hpp"
 
 namespace petal {

@@ -3,9 +3,6 @@
 
 #include "filters/radius_outlier.hpp"
 
-#include <cstddef>
-
-#include "filters/detail/cloud_subset.hpp"
 #include "filters/detail/crowded_points.hpp"
 #include "petal/printed.hpp"
 
@@ -31,15 +28,10 @@ thresholds for margin points.)");
 }
 
 void RadiusOutlier::run(Run& run) {
-    const auto& cloud = run.in<Cloud>("cloud");
-    const auto finite = finite_points(cloud);
-    const auto kept = crowded_points(cloud, finite, params_.radius,
-                                     static_cast<std::size_t>(params_.min_neighbours), run);
-    write_subset(
-        run, cloud, kept, finite.size(),
-        {"points with neighbours", "",
-         printed("min_neighbours %d within radius %g m", params_.min_neighbours, params_.radius),
-         "enlarge the radius, or give more seconds of data"});
+    write_crowded_points(
+        run, params_.radius, params_.min_neighbours,
+        printed("min_neighbours %d within radius %g m", params_.min_neighbours, params_.radius),
+        "enlarge the radius, or give more seconds of data");
 }
 
 }  // namespace petal

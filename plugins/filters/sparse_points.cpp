@@ -3,7 +3,6 @@
 
 #include "filters/sparse_points.hpp"
 
-#include "filters/detail/cloud_subset.hpp"
 #include "filters/detail/crowded_points.hpp"
 #include "petal/printed.hpp"
 
@@ -35,15 +34,10 @@ The points are sorted into cells of distance / sqrt(3), so the time grows linear
 }
 
 void SparsePoints::run(Run& run) {
-    const auto& cloud = run.in<Cloud>("cloud");
-    const auto finite = finite_points(cloud);
-    const auto kept = crowded_points(cloud, finite, params_.distance,
-                                     static_cast<std::size_t>(params_.min_neighbours), run);
-    write_subset(
-        run, cloud, kept, finite.size(),
-        {"points with neighbours", "",
-         printed("min_neighbours %d, distance %g m", params_.min_neighbours, params_.distance),
-         "enlarge the distance, or give more seconds of data"});
+    write_crowded_points(
+        run, params_.distance, params_.min_neighbours,
+        printed("min_neighbours %d, distance %g m", params_.min_neighbours, params_.distance),
+        "enlarge the distance, or give more seconds of data");
 }
 
 }  // namespace petal

@@ -9,8 +9,8 @@
 #include <nanoflann.hpp>
 #include <vector>
 
-#include "filters/detail/cloud_subset.hpp"
-#include "filters/detail/for_pieces.hpp"
+#include "filters/detail/write_subset.hpp"
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/printed.hpp"
 
 namespace petal {

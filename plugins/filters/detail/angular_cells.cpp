@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "filters/detail/direction_block.hpp"
-#include "filters/detail/for_pieces.hpp"
 #include "petal/calibration/angles.hpp"
+#include "petal/calibration/for_pieces.hpp"
 
 namespace petal {
 namespace {

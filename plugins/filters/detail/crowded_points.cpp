@@ -5,8 +5,9 @@
 
 #include <cmath>
 
-#include "filters/detail/for_pieces.hpp"
 #include "filters/detail/space_cells.hpp"
+#include "filters/detail/write_subset.hpp"
+#include "petal/calibration/for_pieces.hpp"
 
 namespace petal {
 namespace {
@@ -49,6 +50,15 @@ std::vector<std::uint32_t> crowded_points(const Cloud& cloud,
     for (const std::uint32_t i : indices)
         if (stays[i] != 0) kept.push_back(i);
     return kept;
+}
+
+void write_crowded_points(Run& run, double distance, int enough, const std::string& threshold,
+                          const std::string& hint) {
+    const auto& cloud = run.in<Cloud>("cloud");
+    const auto finite = finite_points(cloud);
+    const auto kept =
+        crowded_points(cloud, finite, distance, static_cast<std::size_t>(enough), run);
+    write_subset(run, cloud, kept, finite.size(), {"points with neighbours", "", threshold, hint});
 }
 
 }  // namespace petal

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "petal/calibration/cloud.hpp"
@@ -19,5 +20,10 @@ namespace petal {
 std::vector<std::uint32_t> crowded_points(const Cloud& cloud,
                                           const std::vector<std::uint32_t>& indices,
                                           double distance, std::size_t enough, const Run& run);
+
+/// What removers of lonely points do with their `cloud`: crowded_points() of those that are finite
+/// go out. `threshold` and `hint` are for the note where none stays.
+void write_crowded_points(Run& run, double distance, int enough, const std::string& threshold,
+                          const std::string& hint);
 
 }  // namespace petal

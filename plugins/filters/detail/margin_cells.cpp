@@ -14,14 +14,17 @@
 #include "filters/detail/angular_plane.hpp"
 #include "filters/detail/cell_ranges.hpp"
 #include "filters/detail/cell_window.hpp"
-#include "filters/detail/for_pieces.hpp"
 #include "filters/detail/range_mode.hpp"
+#include "petal/calibration/for_pieces.hpp"
 
 namespace petal {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 4;
 constexpr float kFar = std::numeric_limits<float>::max();
+/// Of the threshold: once a cell is known to have an edge, what lies so far behind shows where. Of a
+/// wall close behind only the noise's tail passes the whole threshold.
+constexpr float kNearer = 0.75F;
 constexpr int kApart = 2;  ///< cells between those that slopes are taken from
 
 /// The slopes (1/m/rad) that a surface through a cell may have along one axis: one to three.
@@ -197,7 +200,7 @@ bool MarginJudge::keep(const CellWindow& window, std::uint32_t cell, const Angul
     far_.clear();
     window.for_spans(settings_.reach, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t i = first; i < last; ++i)
-            if (surface.behind(points[i]) > frontier.centre + settings_.threshold)
+            if (surface.behind(points[i]) > frontier.centre + kNearer * settings_.threshold)
                 far_.push_back(points[i]);
     });
     const float narrow = std::cos(surface.elevation);

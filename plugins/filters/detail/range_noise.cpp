@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "filters/detail/cell_window.hpp"
+#include "petal/calibration/for_pieces.hpp"
 
 namespace petal {
 namespace {
@@ -33,17 +34,17 @@ std::optional<Place> measured(const AngularCells& cells, const CellWindow& windo
     window.for_spans(1, [&](std::uint32_t first, std::uint32_t last) { count += last - first; });
     if (count < kFewestPoints) return std::nullopt;
     const AngularPoint& origin = cells.points()[cells.begin(cell)];
+    const double per_step = 1.0 / cells.step();
+    const double inverse_there = 1.0 / static_cast<double>(origin.range);
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     double sum = 0.0, squares = 0.0;
     window.for_spans(1, [&](std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t i = first; i < last; ++i) {
             const AngularPoint& p = cells.points()[i];
-            const Eigen::Vector3d a(
-                1.0, static_cast<double>(p.azimuth - origin.azimuth) / cells.step(),
-                static_cast<double>(p.elevation - origin.elevation) / cells.step());
-            const double inverse =
-                1.0 / static_cast<double>(p.range) - 1.0 / static_cast<double>(origin.range);
+            const Eigen::Vector3d a(1.0, static_cast<double>(p.azimuth - origin.azimuth) * per_step,
+                                    static_cast<double>(p.elevation - origin.elevation) * per_step);
+            const double inverse = 1.0 / static_cast<double>(p.range) - inverse_there;
             normal += a * a.transpose();
             right += a * inverse;
             squares += inverse * inverse;
@@ -63,23 +64,26 @@ std::optional<Place> measured(const AngularCells& cells, const CellWindow& windo
 
 }  // namespace
 
-std::optional<double> range_noise(const AngularCells& cells) {
+std::optional<double> range_noise(const AngularCells& cells, const Run& run) {
     const std::size_t stride = std::max<std::size_t>(1, cells.size() / kPlaces);
-    std::vector<Place> places;
-    for (std::size_t row = 0; row < cells.rows(); ++row) {
-        CellWindow window(cells, row);
-        const std::size_t first = (cells.row_begin(row) + stride - 1) / stride * stride;
-        for (std::size_t cell = first; cell < cells.row_begin(row + 1); cell += stride) {
-            window.move_to(cell);
-            if (const auto place = measured(cells, window, cell)) places.push_back(*place);
+    std::vector<std::vector<Place>> places(cells.rows());
+    for_pieces(run, cells.rows(), 1, [&](std::size_t row, std::size_t end) {
+        for (; row < end; ++row) {
+            CellWindow window(cells, row);
+            const std::size_t first = (cells.row_begin(row) + stride - 1) / stride * stride;
+            for (std::size_t cell = first; cell < cells.row_begin(row + 1); cell += stride) {
+                window.move_to(cell);
+                if (const auto place = measured(cells, window, cell)) places[row].push_back(*place);
+            }
         }
-    }
+    });
     std::vector<double> near, all;
-    for (const Place& place : places) {
-        if (!std::isfinite(place.variance)) continue;
-        all.push_back(place.variance);
-        if (place.range >= kNearest && place.range <= kFarthest) near.push_back(place.variance);
-    }
+    for (const auto& row : places)
+        for (const Place& place : row) {
+            if (!std::isfinite(place.variance)) continue;
+            all.push_back(place.variance);
+            if (place.range >= kNearest && place.range <= kFarthest) near.push_back(place.variance);
+        }
     std::vector<double>& taken = near.size() < kEnoughPlaces ? all : near;
     if (taken.empty()) return std::nullopt;
     const auto middle = taken.begin() + static_cast<std::ptrdiff_t>(taken.size() / 2);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "filters/detail/angular_cells.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -14,6 +15,6 @@ namespace petal {
 /// places is taken, which edges do not reach as long as most places are smooth. Places from 1 to
 /// 12 m off count, where boards stand; all places where fewer than 30 do lie there. None where no
 /// place has points enough (12).
-std::optional<double> range_noise(const AngularCells& cells);
+std::optional<double> range_noise(const AngularCells& cells, const Run& run);
 
 }  // namespace petal

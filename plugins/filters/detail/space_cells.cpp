@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "filters/detail/space_cells.hpp"
+#include "petal/calibration/for_pieces.hpp"
 
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-
-#include "filters/detail/for_pieces.hpp"
 
 namespace petal {
 namespace {

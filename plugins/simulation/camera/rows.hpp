@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <cstddef>
 
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/run.hpp"
 
 namespace petal::simulation {
@@ -14,12 +14,9 @@ namespace petal::simulation {
 /// on another row of the same call. \throws Cancelled; whatever `work` throws.
 template <class Work>
 void for_rows(const Run& run, int rows, const Work& work) {
-    tbb::task_arena(run.threads()).execute([&] {
-        tbb::parallel_for(0, rows, [&](int row) {
-            if (!run.cancelled()) work(row);
-        });
+    for_pieces(run, static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t end) {
+        for (; row < end; ++row) work(static_cast<int>(row));
     });
-    run.check_cancelled();
 }
 
 }  // namespace petal::simulation

@@ -189,6 +189,21 @@ TEST(MarginPointsStage, ATooHighThresholdFindsNothing) {
     EXPECT_GT(kept_by(derived, points).size(), 500U);
 }
 
+/// In the middle of a rosette the beam dwells: one cell can hold a hundred times the points of the
+/// next. A rule that one in so many points lies behind a frontier would lose the edge there.
+TEST(MarginPointsStage, AnEdgeIsOneBesideAnyNumberOfPoints) {
+    auto rays = raster(3.0, 0.05);
+    const std::size_t even = rays.size();
+    for (int i = 0; i < 150; ++i)
+        for (int k = 0; k < 100; ++k) rays.push_back({1.9 + 0.0005 * k, 0.0005 * i});
+    auto stage = margins();
+    stage.set("range_threshold", 0.06);
+    const auto kept = kept_by(stage, board_before_wall(rays, 0.3, 0.01));
+    const auto dwelt = static_cast<std::size_t>(
+        kept.end() - std::lower_bound(kept.begin(), kept.end(), static_cast<std::uint32_t>(even)));
+    EXPECT_GT(dwelt, (rays.size() - even) / 2);  // 58 % of even noise lie within one sigma
+}
+
 /// The letter's cell as it stands gives frontiers too, from fewer cells.
 TEST(MarginPointsStage, ACellAloneCanBeJudged) {
     const auto rays = raster(3.0, 0.05);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the petal authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "filters/detail/cloud_subset.hpp"
+#include "petal/calibration/cloud_subset.hpp"
 
 #include <gtest/gtest.h>
 
