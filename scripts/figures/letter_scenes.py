@@ -10,16 +10,12 @@ an interrupted study goes on where it was. For example:
     scripts/figures/letter_scenes.py --petal build/bin/petal --seeds 20 --work /tmp/letter
 """
 
-import argparse
-import concurrent.futures
 import json
-import os
 import pathlib
 import statistics
-import subprocess
-import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from runs import arguments, run_all
+
 SCENES = ["indoor_floor_3m", "indoor_floor_5m", "car_3m", "car_5m", "indoor_four_boards", "car_8m"]
 ASKED = SCENES[:4]  # gap of at least 10 cm, 3 and 5 m
 WALL_GAPS_CM = [5, 7, 10, 15, 25, 50]
@@ -58,21 +54,9 @@ def patch(scene, duration):
         "overlay": None}}
 
 
-def run(petal, scene, seed, duration, work):
-    """The metrics of one run, from its folder where it is there already."""
-    name = pathlib.Path(scene).stem
-    folder = work / name / str(seed)
-    if not (folder / "result.json").exists():
-        work_patch = work / f"{name}.patch.json"
-        done = subprocess.run(
-            [petal, "--quiet", "run", str(ROOT / "pipelines/letter.json"), "--with", str(work_patch),
-             "--seed", str(seed), "--threads", "1", "--out", str(folder), "--force"],
-            capture_output=True, text=True)
-        if done.returncode not in (0, 4):
-            raise RuntimeError(f"{name}, seed {seed}: exit {done.returncode}\n{done.stderr}")
-    metrics = json.loads((folder / "result.json").read_text())["metrics"]
-    wide = json.loads((folder / "result_5cm.json").read_text())["metrics"]
-    metrics["vacant_5cm"] = wide.get("plane_points.vacant_share")
+def metrics_of(files):
+    metrics = files["result"]["metrics"]
+    metrics["vacant_5cm"] = files["result_5cm"]["metrics"].get("plane_points.vacant_share")
     return metrics
 
 
@@ -130,31 +114,17 @@ def table_two(name, runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--petal", default=str(ROOT / "build/bin/petal"))
-    parser.add_argument("--seeds", type=int, default=20)
+    parser = arguments(__doc__, seeds=20)
     parser.add_argument("--duration", type=float, default=20.0, help="of a capture, s")
-    parser.add_argument("--work", type=pathlib.Path, required=True)
     parser.add_argument("--scenes", nargs="*", default=SCENES)
     parser.add_argument("--gaps-cm", nargs="*", type=int, default=WALL_GAPS_CM)
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
 
     options.work.mkdir(parents=True, exist_ok=True)
     scenes = options.scenes + [wall_scene(gap, options.work) for gap in options.gaps_cm]
-    runs = {pathlib.Path(scene).stem: [] for scene in scenes}
-    for scene in scenes:
-        file = options.work / f"{pathlib.Path(scene).stem}.patch.json"
-        file.write_text(json.dumps(patch(scene, options.duration)))
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        waiting = {pool.submit(run, options.petal, scene, seed, options.duration, options.work):
-                   pathlib.Path(scene).stem for scene in scenes for seed in range(1, options.seeds + 1)}
-        for one, name in waiting.items():
-            try:
-                runs[name].append(one.result())
-            except RuntimeError as error:
-                sys.exit(str(error))
+    patches = {pathlib.Path(scene).stem: patch(scene, options.duration) for scene in scenes}
+    runs = {name: [metrics_of(files) for files in each]
+            for name, each in run_all(options, "letter.json", patches).items()}
 
     print("| scene | near an edge, % | vacant before, % | behind filters, % | behind planes, % | at 5 cm, % "
           "| poorest side, least / median | LiDAR boards | false | image boards | false |")
