@@ -46,8 +46,7 @@ constexpr std::chrono::milliseconds kLook{10};
 
 std::string to_string(const ChildEnd& end) {
     if (end.signal != 0)
-        return "crashed: signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) +
-               ")";
+        return "signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) + ")";
     return "ended the program with exit code " + std::to_string(end.exit_code);
 }
 

@@ -19,7 +19,7 @@ struct ChildEnd {
     int exit_code = 0;  ///< where no signal ended it
     int signal = 0;
 };
-/// "crashed: signal 11 (Segmentation fault)", "ended the program with exit code 1".
+/// "signal 11 (Segmentation fault)", "ended the program with exit code 1".
 std::string to_string(const ChildEnd& end);
 
 /// Jobs in processes of their own, forked off this one with all that it has loaded: a stage that

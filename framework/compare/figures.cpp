@@ -27,6 +27,22 @@ class UnitTable {
 
     const std::vector<UnitOutcome>& all() const { return units_; }
 
+    /// Data of which no variant's outcome differs between two seeds.
+    std::set<std::size_t> data_without_chance() const {
+        std::set<std::size_t> fixed;
+        std::set<std::size_t> varied;
+        std::map<std::pair<std::size_t, std::size_t>, const UnitOutcome*> first;
+        for (const UnitOutcome& unit : units_) {
+            fixed.insert(unit.data);
+            const auto [at, is_new] = first.insert({{unit.variant, unit.data}, &unit});
+            const UnitOutcome& other = *at->second;
+            if (unit.failure != other.failure || unit.values != other.values)
+                varied.insert(unit.data);
+        }
+        for (const std::size_t data : varied) fixed.erase(data);
+        return fixed;
+    }
+
     /// The pairs of a variant with the reference, where both are there.
     template <class Value>
     std::vector<Pair> pairs(std::size_t variant, std::size_t reference, Value value) const {
@@ -107,7 +123,7 @@ VariantFigures figures_of(const Comparison& comparison, const MetricSpec& metric
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                                [&](const Pair& pair) { return not_measured.count(pair.data) > 0; }),
                 pairs.end());
-    pairs = independent_pairs(pairs);
+    pairs = independent_pairs(pairs, table.data_without_chance());
     if (!pairs.empty()) figures.judgement = measure(comparison, metric, pairs, name);
     return figures;
 }
@@ -121,15 +137,18 @@ VariantFailures failures_of(const Comparison& comparison, const UnitTable& table
         if (!unit.failure.empty()) ++failures.by_cause[unit.failure];
     }
     if (variant == comparison.reference) return failures;
-    const auto pairs =
-        independent_pairs(table.pairs(variant, comparison.reference, [](const UnitOutcome& unit) {
-            return unit.failure.empty() ? std::optional<double>(0.0) : std::nullopt;
-        }));
+    const auto pairs = independent_pairs(
+        table.pairs(variant, comparison.reference,
+                    [](const UnitOutcome& unit) {
+                        return unit.failure.empty() ? std::optional<double>(0.0) : std::nullopt;
+                    }),
+        table.data_without_chance());
     if (!pairs.empty()) failures.judgement = measure_failures(pairs);
     return failures;
 }
 
-/// Holm over all variants and metrics, failures among them; then the verdicts.
+/// Holm over all variants and metrics, failures among them; then the verdicts. A test that could
+/// not have reached the level whatever its pairs said (Tarone) takes nothing from the others.
 void decide_all(const Comparison& comparison, Figures& figures) {
     std::vector<double> p_values;
     const auto each = [&](auto metric_judgement, auto failure_judgement) {
@@ -139,18 +158,23 @@ void decide_all(const Comparison& comparison, Figures& figures) {
         for (VariantFailures& variant : figures.failures)
             if (variant.judgement) failure_judgement(*variant.judgement);
     };
-    each([&](MetricJudgement& judgement, const MetricSpec&) { p_values.push_back(judgement.p); },
-         [&](FailureJudgement& judgement) { p_values.push_back(judgement.p); });
+    const auto counts = [&](const auto& judgement) {
+        return judgement.least_p <= 1.0 - comparison.confidence;
+    };
+    const auto collect = [&](const auto& judgement) {
+        if (counts(judgement)) p_values.push_back(judgement.p);
+    };
+    each([&](MetricJudgement& judgement, const MetricSpec&) { collect(judgement); }, collect);
     const std::vector<double> adjusted = holm(p_values);
     figures.tests = adjusted.size();
     auto next = adjusted.begin();
     each(
         [&](MetricJudgement& judgement, const MetricSpec& metric) {
-            judgement.p_holm = *next++;
-            decide(judgement, comparison, metric.better, adjusted.size());
+            if (counts(judgement)) judgement.p_holm = *next++;
+            decide(judgement, comparison, metric.better, std::max<std::size_t>(1, adjusted.size()));
         },
         [&](FailureJudgement& judgement) {
-            judgement.p_holm = *next++;
+            if (counts(judgement)) judgement.p_holm = *next++;
             decide(judgement, comparison);
         });
 }

@@ -52,7 +52,7 @@ struct VariantFailures {
 struct Figures {
     std::vector<MetricFigures> metrics;
     std::vector<VariantFailures> failures;  ///< by variant
-    std::size_t tests = 0;                  ///< p-values in Holm's family
+    std::size_t tests = 0;  ///< p-values in Holm's family: those that could reach the level
 };
 
 /// All statistics of a comparison. `units` holds every unit once, in any order; the outcome does

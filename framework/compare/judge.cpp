@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "petal/printed.hpp"
 #include "rank_tests.hpp"
@@ -78,8 +77,9 @@ std::optional<std::size_t> more_pairs(const MetricJudgement& judgement, double c
     return static_cast<std::size_t>(std::max(1.0, std::ceil(needed - n)));
 }
 
-bool same(const Pair& a, const Pair& b) {
-    return a.reference == b.reference && a.variant == b.variant;
+/// All differences on one side: 2 of 2^count patterns of signs.
+double least_p_of(std::size_t count) {
+    return std::min(1.0, std::exp2(1.0 - static_cast<double>(count)));
 }
 
 }  // namespace
@@ -100,16 +100,13 @@ const char* to_string(Verdict verdict) {
     return "undecided";
 }
 
-std::vector<Pair> independent_pairs(const std::vector<Pair>& pairs) {
-    std::map<std::size_t, std::vector<Pair>> by_data;
-    for (const Pair& pair : pairs) by_data[pair.data].push_back(pair);
+std::vector<Pair> independent_pairs(const std::vector<Pair>& pairs,
+                                    const std::set<std::size_t>& seed_changes_nothing) {
+    std::set<std::size_t> taken;
     std::vector<Pair> independent;
-    for (auto& [data, its] : by_data) {
-        const bool seed_changes_nothing = std::all_of(
-            its.begin(), its.end(), [&](const Pair& pair) { return same(pair, its[0]); });
-        if (seed_changes_nothing) its.resize(1);
-        independent.insert(independent.end(), its.begin(), its.end());
-    }
+    for (const Pair& pair : pairs)
+        if (seed_changes_nothing.count(pair.data) == 0 || taken.insert(pair.data).second)
+            independent.push_back(pair);
     return independent;
 }
 
@@ -143,6 +140,9 @@ MetricJudgement measure(const Comparison& comparison, const MetricSpec& metric,
     const SignedRank ranked = signed_rank(differences);
     judgement.p = ranked.p;
     judgement.rank_direction = ranked.direction;
+    judgement.least_p =
+        least_p_of(differences.size() - static_cast<std::size_t>(std::count(
+                                            differences.begin(), differences.end(), 0.0)));
     judgement.p_holm = judgement.p;
     return judgement;
 }
@@ -155,6 +155,7 @@ FailureJudgement measure_failures(const std::vector<Pair>& pairs) {
         if (pair.variant && !pair.reference) ++judgement.only_reference;
     }
     judgement.p = sign_p(judgement.only_variant, judgement.only_reference);
+    judgement.least_p = least_p_of(judgement.only_variant + judgement.only_reference);
     judgement.p_holm = judgement.p;
     return judgement;
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct MetricJudgement {
     double win_share = 0.0;        ///< pairs in which the variant is better; a tie counts half
     double margin = 0.0;           ///< in the metric's unit
     double p = 1.0;                ///< signed ranks, failures ranking highest
+    double least_p = 1.0;          ///< that so many differences could have given
     int rank_direction = 0;        ///< sign of the differences by ranks
     double p_holm = 1.0;           ///< to be set against 1 - confidence
     Verdict verdict = Verdict::undecided;
@@ -53,13 +55,15 @@ struct FailureJudgement {
     std::size_t only_variant = 0;
     std::size_t only_reference = 0;
     double p = 1.0;
+    double least_p = 1.0;
     double p_holm = 1.0;
     Verdict verdict = Verdict::undecided;
 };
 
-/// The pairs that tell something of their own: where on one data item (two pairs or more) all seeds
-/// give the very same pair, the seed changes nothing there and the item counts once.
-std::vector<Pair> independent_pairs(const std::vector<Pair>& pairs);
+/// The pairs that tell something of their own: of a data item on which the seed changes nothing,
+/// the first alone.
+std::vector<Pair> independent_pairs(const std::vector<Pair>& pairs,
+                                    const std::set<std::size_t>& seed_changes_nothing);
 
 /// The figures that one metric's pairs give by themselves; `name` seeds the bootstrap. The verdict
 /// waits for decide(). \pre pairs not empty.
