@@ -3,11 +3,15 @@
 
 #include "sinks/result.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/metrics.hpp"
 #include "petal/output.hpp"
+#include "sinks/detail/findings.hpp"
 #include "sinks/detail/result_json.hpp"
 
 namespace petal {
@@ -32,6 +36,10 @@ void ResultSink::describe(Spec<Params>& s) {
         "`given` where the "
         "input itself paired the points, `undecided` where nothing could tell (the verdict is then "
         "`not_usable`).\n\n"
+        "The verdict is the solver's, lowered by what checks found: a finding of a metric brings "
+        "its "
+        "level, one of a board detector makes the result weak at most. Their words follow the "
+        "solver's among `reasons`; the run is told the same verdict, so its exit code agrees.\n\n"
         "The same seed and data give the same bytes, so the file holds no time and no path.");
     s.reads<Extrinsics>("extrinsics", "what a solver found");
     s.gathers<Correspondences>("correspondences", "the pairs of all scenes, for the boards")
@@ -49,6 +57,14 @@ void ResultSink::finish(Run& run) {
     input.lidar_boards = run.all<LidarBoards>("lidar_boards");
     input.image_boards = run.all<ImageBoards>("image_boards");
     input.metrics = run.all<Metrics>("metrics");
+    const Judgement found = found_by_checks(input);
+    if (!found.reasons.empty()) {
+        // The solver told its own level and reasons already: here come those of the checks alone.
+        run.verdict(found.level, found.reasons);
+        auto judged = std::make_shared<Extrinsics>(*input.extrinsics);
+        lower(*judged, found);
+        input.extrinsics = std::move(judged);
+    }
     const std::string text = result_json(input);
     run.output(params_.file.string(),
                [&text](const std::filesystem::path& path) { write_file(path, text); });

@@ -161,6 +161,42 @@ TEST(ResultSinkTest, TakesMetricsOfSeveralStages) {
     EXPECT_EQ(result["metrics_per_scene"]["hall"]["truth.rotation_deg"], 0.2);
 }
 
+TEST(ResultSinkTest, FindingsLowerTheVerdictAndAreToldOnce) {
+    Example example;
+    example.lidar.findings = {"the target may be another"};
+    StageHarness sink = example.harness();
+    Metrics checks;
+    checks.findings = {{Level::not_usable, "cx lies outside"}, {Level::weak, "board 1 moved"}};
+    sink.give<Metrics>("metrics", checks, "hall").give<Metrics>("metrics", checks, "court");
+    const json result = result_of(sink);
+    EXPECT_EQ(result["verdict"], "not_usable");
+    EXPECT_EQ(result["reasons"], json({"two boards only", "cx lies outside", "board 1 moved",
+                                       "the target may be another"}));
+    // The solver tells its own reasons: the sink adds the level and the reasons of the checks.
+    EXPECT_EQ(sink.verdict(), Level::not_usable);
+    EXPECT_EQ(sink.reasons().size(), 3U);
+}
+
+TEST(ResultSinkTest, WithoutFindingsTheSinkJudgesNothing) {
+    StageHarness sink = Example().harness();
+    EXPECT_EQ(result_of(sink)["verdict"], "weak");
+    EXPECT_FALSE(sink.verdict().has_value());
+}
+
+TEST(ResultSinkTest, DetectorsFindingsMakeWeakAndNameTheirScene) {
+    Example example;
+    example.extrinsics.level = Level::usable;
+    example.extrinsics.reasons.clear();
+    example.image.findings = {"edges are blurred"};
+    StageHarness sink = StageHarness::of<ResultSink>();
+    sink.give<Extrinsics>("extrinsics", example.extrinsics)
+        .give<ImageBoards>("image_boards", example.image, "hall")
+        .give<ImageBoards>("image_boards", ImageBoards{}, "court");
+    const json result = result_of(sink);
+    EXPECT_EQ(result["verdict"], "weak");
+    EXPECT_EQ(result["reasons"], json({"hall: edges are blurred"}));
+}
+
 TEST(ResultSinkTest, NothingSolvedIsStillAResult) {
     StageHarness sink = StageHarness::of<ResultSink>();
     sink.give<Extrinsics>("extrinsics", Extrinsics{});
