@@ -7,6 +7,7 @@
 #include "sources/observations.hpp"
 #include "sources/pairs.hpp"
 #include "sources/rawlog.hpp"
+#include "sources/result.hpp"
 #include "sources/simulator.hpp"
 
 PETAL_PLUGIN("sources", "0.1.0", [](petal::Registrar& r) {
@@ -14,5 +15,6 @@ PETAL_PLUGIN("sources", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::ObservationsSource>("source.observations");
     r.add<petal::PairsSource>("source.pairs");
     r.add<petal::RawlogSource>("source.rawlog");
+    r.add<petal::ResultSource>("source.result");
     r.add<petal::SimulatorSource>("source.simulator");
 });

@@ -43,7 +43,8 @@ with several the run ends with the list of them. A rawlog without a LiDAR gives 
 a note, unless a label was asked for.
 
 **Cameras**: `CObservationImage` with its `cameraParams`, all labels by default. Of several images
-of one camera the sharpest is taken, by the variance of the Laplacian. Images in files of their
+of one camera the sharpest is taken, by the variance of the Laplacian; the first, one of the middle and the last
+are kept beside it, for checks that ask whether anything moved (detectors pass over them). Images in files of their
 own are looked for in `<stem>_Images`, `<stem>_images`, `Images` and beside the rawlog. An image
 of another size than its intrinsics' ends the run.
 

@@ -4,7 +4,9 @@
 #include "sources/detail/scene_builder.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "petal/error.hpp"
 #include "petal/rawlog/lidar_points.hpp"
@@ -12,6 +14,11 @@
 #include "sources/detail/sharpness.hpp"
 
 namespace petal {
+namespace {
+
+constexpr std::size_t kMostSpread = 8;  // images of a camera that are held while a scene is read
+
+}  // namespace
 
 bool SensorChoice::takes_camera(const std::string& label) const {
     return cameras.empty() || label_fits_any(cameras, label);
@@ -95,18 +102,35 @@ void SceneBuilder::add_image(mrpt::obs::CObservationImage& observation) {
 
     const double sharp = choice_.image == "sharpest" ? sharpness(pixels) : 0.0;
     const auto [at, is_new] = cameras_.try_emplace(label);
-    Candidate& best = at->second;
-    ++best.seen;
-    const bool better = is_new || choice_.image == "last" ||
-                        (choice_.image == "sharpest" && sharp > best.sharpness);
-    if (!better) return;
+    Candidate& candidate = at->second;
+    Numbered taken;
+    taken.number = candidate.seen++;
+    taken.image.label = label;
+    taken.image.image = observation.image;
+    taken.image.camera = camera;
+    taken.image.stamp = observation.timestamp;
+    observation.getSensorPose(taken.image.sensor_pose);
     if (is_new && !calibrated) remarks_.push_back("camera '" + label + "' has no intrinsics");
-    best.sharpness = sharp;
-    best.image.label = label;
-    best.image.image = observation.image;
-    best.image.camera = camera;
-    best.image.stamp = observation.timestamp;
-    observation.getSensorPose(best.image.sensor_pose);
+    const bool better = is_new || choice_.image == "last" ||
+                        (choice_.image == "sharpest" && sharp > candidate.sharpness);
+    if (better) {
+        candidate.sharpness = sharp;
+        candidate.best = taken;
+    }
+    spread_out(candidate, std::move(taken));
+}
+
+void SceneBuilder::spread_out(Candidate& candidate, Numbered image) {
+    candidate.last = image;
+    if (image.number % candidate.stride != 0) return;
+    candidate.spread.push_back(std::move(image));
+    if (candidate.spread.size() <= kMostSpread) return;
+    // How many will come is not known: thinned by half whenever there are too many.
+    candidate.stride *= 2;
+    std::vector<Numbered> thinned;
+    for (Numbered& one : candidate.spread)
+        if (one.number % candidate.stride == 0) thinned.push_back(std::move(one));
+    candidate.spread = std::move(thinned);
 }
 
 Cloud SceneBuilder::take_cloud() {
@@ -117,7 +141,20 @@ Cloud SceneBuilder::take_cloud() {
 
 Images SceneBuilder::take_images() {
     Images images;
-    for (auto& [label, candidate] : cameras_) images.cameras.push_back(std::move(candidate.image));
+    for (auto& [label, candidate] : cameras_) {
+        const Numbered* middle = &candidate.spread.front();
+        for (const Numbered& one : candidate.spread)
+            if (std::abs(2 * one.number - candidate.last.number) <
+                std::abs(2 * middle->number - candidate.last.number))
+                middle = &one;
+        std::set<int> kept = {candidate.best.number};
+        for (const Numbered* one :
+             {&std::as_const(candidate.spread.front()), middle, &std::as_const(candidate.last)})
+            if (kept.insert(one->number).second) images.others.push_back(one->image);
+        images.cameras.push_back(std::move(candidate.best.image));
+    }
+    std::stable_sort(images.others.begin(), images.others.end(),
+                     [](const CameraImage& a, const CameraImage& b) { return a.stamp < b.stamp; });
     return images;
 }
 

@@ -44,7 +44,8 @@ class SensorList {
     std::set<std::string> cameras_;
 };
 
-/// Accumulates the observations of one scene: all points of one LiDAR, one image of each camera.
+/// Accumulates the observations of one scene: all points of one LiDAR, one image of each camera,
+/// and beside it the first, a middle one and the last, for who asks whether anything moved.
 class SceneBuilder {
    public:
     explicit SceneBuilder(SensorChoice choice) : choice_(std::move(choice)) {}
@@ -71,11 +72,21 @@ class SceneBuilder {
     void add_image(mrpt::obs::CObservationImage& observation);
     void note_stamp(mrpt::Clock::time_point stamp);
 
-    struct Candidate {
+    /// An image with its number among those of its camera.
+    struct Numbered {
         CameraImage image;
+        int number = 0;
+    };
+    /// What is kept of one camera, however many images it took.
+    struct Candidate {
+        Numbered best;
         double sharpness = 0.0;
         int seen = 0;
+        std::vector<Numbered> spread;  ///< every stride-th, beginning with the first
+        int stride = 1;
+        Numbered last;
     };
+    static void spread_out(Candidate& candidate, Numbered image);
 
     SensorChoice choice_;
     Cloud cloud_{std::make_shared<mrpt::maps::CPointsMapXYZI>(), "", {}, {}, {}};
