@@ -17,6 +17,10 @@ Verbosity GlobalOptions::verbosity() const {
 
 void PipelineOptions::add_to(CLI::App& command) {
     command.add_option("PIPELINE", pipeline, "pipeline file (JSON)")->required();
+    add_options_to(command);
+}
+
+void PipelineOptions::add_options_to(CLI::App& command) {
     command
         .add_option("--with", with,
                     "patch (RFC 7396 merge patch) applied to the pipeline; repeatable")

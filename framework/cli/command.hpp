@@ -47,6 +47,8 @@ struct PipelineOptions {
     bool force = false;
 
     void add_to(CLI::App& command);
+    /// All but the pipeline itself, for a command that brings its own.
+    void add_options_to(CLI::App& command);
     PipelineRequest request() const;
 };
 
@@ -59,6 +61,7 @@ void add_show(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_stages(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_plugins(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_inspect(CLI::App& app, const GlobalOptions& global, Action& action);
+void add_verify(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_compare(CLI::App& app, const GlobalOptions& global, Action& action);
 void add_schema(CLI::App& app, const GlobalOptions& global, Action& action);
 
@@ -70,6 +73,9 @@ PluginSet find_plugins(const GlobalOptions& global);
 /// instead.
 std::optional<Pipeline> checked(const PipelineRequest& request, const PluginSet& plugins,
                                 int& exit_code);
+
+/// Runs a pipeline as `petal run` does; the exit code.
+int run_pipeline_file(const PipelineOptions& options, const GlobalOptions& global);
 
 /// Ids given with --debug that the pipeline does not have: told on standard error. True when all
 /// are known.

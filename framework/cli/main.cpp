@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
     add_stages(app, global, action);
     add_plugins(app, global, action);
     add_inspect(app, global, action);
+    add_verify(app, global, action);
     add_compare(app, global, action);
     add_schema(app, global, action);
     try {

@@ -100,7 +100,9 @@ void write_run_json(const RunReport& report, const Pipeline& pipeline,
     }
 }
 
-int run(const PipelineOptions& options, const GlobalOptions& global) {
+}  // namespace
+
+int run_pipeline_file(const PipelineOptions& options, const GlobalOptions& global) {
     // A limit on the size of files is an error of the write, like a full disk, not the end.
     std::signal(SIGXFSZ, SIG_IGN);
     end_on_interrupt();
@@ -131,14 +133,12 @@ int run(const PipelineOptions& options, const GlobalOptions& global) {
     return exit_code(report);
 }
 
-}  // namespace
-
 void add_run(CLI::App& app, const GlobalOptions& global, Action& action) {
     auto options = std::make_shared<PipelineOptions>();
     CLI::App* command = app.add_subcommand("run", "run a pipeline into a run folder");
     options->add_to(*command);
     command->callback([options, &global, &action] {
-        action = [options, &global] { return run(*options, global); };
+        action = [options, &global] { return run_pipeline_file(*options, global); };
     });
 }
 
