@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "solvers/detail/joint_report.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "petal/calibration/angles.hpp"
+#include "petal/error.hpp"
+#include "petal/printed.hpp"
+#include "solvers/detail/extrinsics_estimate.hpp"
+#include "solvers/detail/joint_scenes.hpp"
+#include "solvers/detail/placement_advice.hpp"
+#include "solvers/detail/reprojection_cost.hpp"
+
+namespace petal {
+namespace {
+
+constexpr double kDriftRanges[] = {5.0, 20.0, 50.0};  // m
+constexpr double kSurelyOther = 3.0;   // sigmas from which a focal length is another one
+constexpr double kFarFromGiven = 2.0;  // and in units of how well the given one is known
+constexpr double kUpperZ3 = 3.0902;    // one-sided 99.9 %
+
+/// The largest 1 sigma of a pixel straight ahead, px.
+double pixel_sigma(const CameraModel& model, const Matrix6d& covariance, double range) {
+    const Eigen::Vector3d ahead(0.0, 0.0, range);
+    Eigen::Matrix<double, 2, 3> by_point;
+    if (!model.project(ahead, &by_point)) return 0.0;
+    const Eigen::Matrix<double, 2, 6> jacobian = projection_jacobian(by_point, ahead);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(
+        jacobian * covariance * jacobian.transpose(), Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+}
+
+std::string drift_text(const std::vector<Diagnosis::Drift>& drifts) {
+    std::string ranges, exact, considered;
+    for (std::size_t i = 0; i < drifts.size(); ++i) {
+        const char* comma = i == 0 ? "" : i + 1 == drifts.size() ? " and " : ", ";
+        ranges += comma + printed("%g", drifts[i].range);
+        exact += comma + printed("%.1f", drifts[i].px);
+        considered += comma + printed("%.1f", drifts[i].considered_px);
+    }
+    return "; straight ahead at " + ranges + " m that is " + exact + " px (" + considered +
+           " px with the doubt in intrinsics and ranges)";
+}
+
+class JointReport {
+   public:
+    JointReport(const JointInput& input, const JointParams& params,
+                const std::optional<TranslationPrior>& prior, Extrinsics& extrinsics)
+        : input_(input), params_(params), reasons_(extrinsics.reasons), extrinsics_(extrinsics) {
+        options_.robust_loss = params.robust_loss;
+        options_.range_offset_sigma = params.range_offset_allowance * params.range_offset_sigma;
+        options_.prior = prior;
+    }
+
+    std::optional<Level> write() {
+        auto minima = search_joint(input_, options_);
+        if (!minima) return std::nullopt;
+        solution_ = std::move(minima->best);
+        free_focal_lengths();
+        const JointUncertainty uncertainty(input_.model, options_, solution_);
+        const SceneInfluence influence(input_.model, options_, solution_, uncertainty);
+        for (std::size_t c = 0; c < input_.cameras.size(); ++c) {
+            CameraExtrinsics camera = extrinsics_of(c, uncertainty);
+            Diagnosis& diagnosis = *camera.diagnosis;
+            diagnosis.scenes = influence.of(c);
+            lower(judge(camera, params_, reasons_));
+            tell_assumed(c);
+            tell_focal(c, *diagnosis.focal);
+            if (c == 0) tell_outliers(c, diagnosis.scenes);
+            if (options_.prior && options_.prior->camera == c)
+                diagnosis.prior = prior_of(c, camera, uncertainty);
+            if (minima->other && minima->other->camera == c) tell_other(*minima->other);
+            if (diagnosis.advice && too_wide(camera))
+                reasons_.push_back(who(c) +
+                                   "what would help most next: " + diagnosis.advice->sentence);
+            extrinsics_.cameras.push_back(std::move(camera));
+        }
+        return level_;
+    }
+
+   private:
+    std::string who(std::size_t c) const { return "camera '" + input_.cameras[c].camera + "': "; }
+    void lower(Level to) { level_ = std::max(level_, to); }
+    void weak(std::string reason) {
+        lower(Level::weak);
+        reasons_.push_back(std::move(reason));
+    }
+    bool too_wide(const CameraExtrinsics& camera) const {
+        const PrincipalSigma sigma = principal_sigma(camera);
+        return sigma.translation > params_.usable_sigma ||
+               sigma.rotation * kDegrees > params_.usable_sigma_deg;
+    }
+
+    /// Where asked to, and where the depths of the boards tell focal length from distance.
+    void free_focal_lengths() {
+        if (!params_.estimate_focal) return;
+        const JointUncertainty held(input_.model, options_, solution_);
+        JointOptions freed = options_;
+        freed.free_focal.assign(input_.cameras.size(), false);
+        bool any = false;
+        for (std::size_t c = 0; c < input_.cameras.size(); ++c) {
+            const double sigma = held.focal(c).sigma;
+            if (sigma <= params_.max_focal_sigma) {
+                freed.free_focal[c] = any = true;
+            } else {
+                weak(who(c) +
+                     printed("the focal length was not estimated: its 1 sigma would be %.2f %% "
+                             "(limit %.2f %%); place boards at more different distances",
+                             sigma * 100.0, params_.max_focal_sigma * 100.0));
+            }
+        }
+        if (!any) return;
+        if (auto solved = solve_joint(input_.model, freed, solution_.state)) {
+            solution_ = *std::move(solved);
+            options_ = freed;
+        }
+    }
+
+    CameraExtrinsics extrinsics_of(std::size_t c, const JointUncertainty& uncertainty) const {
+        const SolveInput& input = input_.cameras[c];
+        CameraExtrinsics camera;
+        camera.camera = input.camera;
+        camera.lidar = input.lidar;
+        camera.model = input_.model.cameras[c].camera();
+        camera.model.fx(camera.model.fx() * solution_.state.focal[c]);
+        camera.model.fy(camera.model.fy() * solution_.state.focal[c]);
+        camera.T_camera_lidar = solution_.state.T_camera_lidar[c];
+        camera.order = input.order;
+        camera.chi2 = uncertainty.chi2();
+        camera.degrees_of_freedom = uncertainty.degrees_of_freedom();
+        camera.covariance = uncertainty.covariance(c);
+        const Matrix6d column = column_covariance(camera);
+        camera.sigma_translation = column.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
+        camera.sigma_rotation = column.diagonal().tail<3>().cwiseMax(0.0).cwiseSqrt();
+
+        const CameraModel model(camera.model);
+        for (std::size_t i = 0; i < input.pairs.size(); ++i) {
+            const PointPair& pair = input.pairs[i];
+            const auto pixel = model.project(camera.T_camera_lidar * pair.lidar);
+            if (!pixel)
+                throw Error(who(c) +
+                            "a pair does not project into the image at the pose that was found; "
+                            "check the pairs and the intrinsics");
+            camera.residuals.push_back({input.origins[i].scene, input.origins[i].board,
+                                        input.origins[i].corner, pair.image, pair.image - *pixel});
+        }
+
+        Diagnosis& diagnosis = camera.diagnosis.emplace();
+        diagnosis.variance_scale = uncertainty.variance_scale();
+        diagnosis.covariance_considered = uncertainty.covariance_considered(c, params_);
+        diagnosis.focal = uncertainty.focal(c);
+        for (const double range : kDriftRanges)
+            diagnosis.drifts.push_back(
+                {range, pixel_sigma(model, camera.covariance, range),
+                 pixel_sigma(model, diagnosis.covariance_considered, range)});
+        AdviceParams advice;
+        advice.range_offset_sigma = options_.range_offset_sigma;
+        advice.min_range = params_.advice_min_range;
+        advice.max_range = params_.advice_max_range;
+        if (params_.usable_sigma > 0.0) advice.usable_sigma = params_.usable_sigma;
+        if (params_.usable_sigma_deg > 0.0)
+            advice.usable_sigma_rotation = params_.usable_sigma_deg / kDegrees;
+        diagnosis.advice =
+            advise_placement(input_.model, solution_, c, uncertainty.information(c), advice);
+        camera.weakest_direction =
+            describe_weakest(column, advice.usable_sigma_rotation / advice.usable_sigma) +
+            drift_text(diagnosis.drifts);
+        return camera;
+    }
+
+    void tell_assumed(std::size_t c) {
+        int assumed = 0;
+        for (const JointBoard& board : input_.model.boards)
+            for (const auto& view : board.views) assumed += board.assumed && view.camera == c;
+        if (assumed > 0)
+            weak(who(c) +
+                 printed("%d LiDAR boards came without a covariance of their pose; %.1f mm and "
+                         "%.2f deg were assumed, so the sigmas rest on a guess",
+                         assumed, params_.assumed_board_sigma * 1e3,
+                         params_.assumed_board_sigma_deg));
+    }
+
+    void tell_focal(std::size_t c, const Diagnosis::FocalScale& focal) {
+        const double off = std::abs(focal.scale - 1.0);
+        if (!(off > kSurelyOther * focal.sigma) || !(off > kFarFromGiven * params_.focal_sigma))
+            return;
+        const std::string seems = printed(
+            "focal length %s %.1f %% too %s (sigma %.1f %%)", focal.estimated ? "was" : "seems",
+            off * 100.0, focal.scale < 1.0 ? "long" : "short", focal.sigma * 100.0);
+        weak(who(c) + seems +
+             (focal.estimated ? " and was estimated: the result needs the corrected intrinsics"
+                              : ": check the intrinsics"));
+    }
+
+    void tell_outliers(std::size_t c, const std::vector<Diagnosis::Scene>& scenes) {
+        if (input_.model.scenes.size() == 2 && scenes[0].outlier && scenes[1].outlier)
+            return weak(who(c) + "scenes '" + scenes[0].name + "' and '" + scenes[1].name +
+                        "' contradict each other; which of them is wrong a third one would tell");
+        for (const Diagnosis::Scene& scene : scenes)
+            if (scene.outlier)
+                weak(who(c) + "scene '" + scene.name +
+                     "' does not fit the others: without it the "
+                     "pose moves by " +
+                     printed("%.1f mm and %.2f deg (%.1f sigma); look at its boards, or leave it "
+                             "out",
+                             column_shift(c, scene.shift).norm() * 1e3,
+                             scene.shift.tail<3>().norm() * kDegrees, scene.shift_sigmas));
+    }
+    Eigen::Vector3d column_shift(std::size_t c, const Vector6d& shift) const {
+        const Eigen::Isometry3d& pose = solution_.state.T_camera_lidar[c];
+        return (se3_exp(shift) * pose).translation() - pose.translation();
+    }
+
+    Diagnosis::Prior prior_of(std::size_t c, const CameraExtrinsics& camera,
+                              const JointUncertainty& uncertainty) {
+        const TranslationPrior& prior = *options_.prior;
+        const double distance = (camera.T_camera_lidar.translation() - prior.translation).norm();
+        Diagnosis::Prior told{distance, distance / prior.sigma,
+                              uncertainty.covariance_without_prior(c)};
+        // What the prior adds to the least sum of squares says whether it and the data agree.
+        JointOptions data_only = options_;
+        data_only.prior.reset();
+        if (const auto data = solve_joint(input_.model, data_only, solution_.state)) {
+            const double added =
+                (solution_.chi2 - data->chi2) / told_scale(uncertainty) + told.sigmas * told.sigmas;
+            if (added > chi2_quantile(3, kUpperZ3))
+                weak(who(c) + "the data contradict the prior on the translation: " +
+                     printed(
+                         "without it the result lies %.1f mm from it (sigma of the prior "
+                         "%.1f mm)",
+                         (data->state.T_camera_lidar[c].translation() - prior.translation).norm() *
+                             1e3,
+                         prior.sigma * 1e3));
+        }
+        CameraExtrinsics alone = camera;
+        alone.covariance = told.covariance_without_prior;
+        if (too_wide(alone) && !too_wide(camera)) {
+            const PrincipalSigma sigma = principal_sigma(alone);
+            weak(who(c) + printed("only the prior on the translation makes it precise: without it "
+                                  "1 sigma is up to %.1f mm and %.3f deg",
+                                  sigma.translation * 1e3, sigma.rotation * kDegrees));
+        }
+        return told;
+    }
+    static double told_scale(const JointUncertainty& uncertainty) {
+        return uncertainty.variance_scale();
+    }
+
+    void tell_other(const JointMinima::Other& other) {
+        if (other.squares >= chi2_quantile(6, kUpperZ3)) return;
+        weak(who(other.camera) +
+             printed("another pose, %.1f deg and %.2f m away, explains the same boards nearly as "
+                     "well (chi-square %.1f more)",
+                     other.angle * kDegrees, other.distance, other.squares));
+    }
+
+    const JointInput& input_;
+    const JointParams& params_;
+    std::vector<std::string>& reasons_;
+    Extrinsics& extrinsics_;
+    JointOptions options_;
+    JointSolution solution_;
+    Level level_ = Level::usable;
+};
+
+}  // namespace
+
+std::optional<Level> report_joint(const JointInput& input, const JointParams& params,
+                                  const std::optional<TranslationPrior>& prior,
+                                  Extrinsics& extrinsics) {
+    return JointReport(input, params, prior, extrinsics).write();
+}
+
+}  // namespace petal
