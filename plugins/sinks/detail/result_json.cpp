@@ -12,6 +12,7 @@
 
 #include "petal/calibration/angles.hpp"
 #include "petal/printed.hpp"
+#include "sinks/detail/diagnosis_json.hpp"
 
 namespace petal {
 
@@ -46,15 +47,17 @@ Json points_json(const Points& points) {
 
 Json extrinsics_json(const CameraExtrinsics& camera) {
     const Eigen::Vector3d rotation_deg = camera.sigma_rotation * kDegrees;
-    return Json{{"camera", camera.camera},
-                {"lidar", camera.lidar},
-                {"T_camera_lidar", matrix_json(camera.T_camera_lidar.matrix())},
-                {"T_lidar_camera", matrix_json(camera.T_camera_lidar.inverse().matrix())},
-                {"covariance", matrix_json(camera.covariance)},
-                {"sigma_translation_m", vector_json(camera.sigma_translation)},
-                {"sigma_rotation_deg", vector_json(rotation_deg)},
-                {"weakest_direction", camera.weakest_direction},
-                {"sentence", placement_sentence(camera.T_camera_lidar)}};
+    Json entry{{"camera", camera.camera},
+               {"lidar", camera.lidar},
+               {"T_camera_lidar", matrix_json(camera.T_camera_lidar.matrix())},
+               {"T_lidar_camera", matrix_json(camera.T_camera_lidar.inverse().matrix())},
+               {"covariance", matrix_json(camera.covariance)},
+               {"sigma_translation_m", vector_json(camera.sigma_translation)},
+               {"sigma_rotation_deg", vector_json(rotation_deg)},
+               {"weakest_direction", camera.weakest_direction},
+               {"sentence", placement_sentence(camera.T_camera_lidar)}};
+    add_diagnosis(entry, camera);
+    return entry;
 }
 
 /// Names of the scenes, by frame number, from whatever was gathered.
