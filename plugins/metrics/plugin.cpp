@@ -5,6 +5,7 @@
 
 #include "metrics/agreement.hpp"
 #include "metrics/board_check.hpp"
+#include "metrics/board_truth.hpp"
 #include "metrics/intrinsics_check.hpp"
 #include "metrics/labels.hpp"
 #include "metrics/normalised_reprojection.hpp"
@@ -17,6 +18,7 @@
 PETAL_PLUGIN("metrics", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::AgreementMetric>("metric.agreement");
     r.add<petal::BoardCheck>("metric.board_check");
+    r.add<petal::BoardTruthMetric>("metric.board_truth");
     r.add<petal::IntrinsicsCheck>("metric.intrinsics_check");
     r.add<petal::LabelsMetric>("metric.labels");
     r.add<petal::NormalisedReprojectionMetric>("metric.normalised_reprojection");
