@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 4;
 constexpr float kFar = std::numeric_limits<float>::max();
-/// Of the threshold: once a cell is known to have an edge, what lies so far behind shows where. Of a
-/// wall close behind only the noise's tail passes the whole threshold.
+/// Of the threshold: once a cell is known to have an edge, what lies so far behind shows where. Of
+/// a wall close behind only the noise's tail passes the whole threshold.
 constexpr float kNearer = 0.75F;
 constexpr int kApart = 2;  ///< cells between those that slopes are taken from
 
