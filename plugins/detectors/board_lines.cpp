@@ -4,6 +4,7 @@
 #include "detectors/board_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -17,6 +18,9 @@ namespace petal {
 namespace {
 
 constexpr int kMaxBoardsPerPlane = 16;
+constexpr double kOffEdges = 0.025;  ///< m: half of a Mid-70's beam at 10 m
+constexpr int kPlateParts = 2;       ///< in each direction ...
+constexpr int kMinPartPoints = 100;  ///< ... each of which must hold as many points
 constexpr double kBorder =
     0.03;  ///< m: points that far outside the outline belong to the board too
 
@@ -40,6 +44,48 @@ std::vector<Eigen::Vector3d> gather(const Planes& planes) {
     std::sort(points.begin(), points.end(), less);
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
+}
+
+/// The points on the plate of a board, LiDAR frame, as far off its edges as no beam reaches that an
+/// edge cuts. Empty where they cover too little of it to tell the plane: in a cloud of margin
+/// points.
+std::vector<Eigen::Vector3d> plate_points(const Cloud& cloud, const HoleGrid& grid,
+                                          const Eigen::Isometry3d& T_lidar_board, double depth) {
+    std::vector<Eigen::Vector3d> plate;
+    const Eigen::Isometry3d to_board = T_lidar_board.inverse();
+    const double reach = std::hypot(grid.width, grid.height);
+    const Eigen::Vector3d at = T_lidar_board.translation();
+    std::array<int, kPlateParts * kPlateParts> parts{};
+    const auto& xs = cloud.points->getPointsBufferRef_x();
+    const auto& ys = cloud.points->getPointsBufferRef_y();
+    const auto& zs = cloud.points->getPointsBufferRef_z();
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+        const Eigen::Vector3d p(static_cast<double>(xs[i]), static_cast<double>(ys[i]),
+                                static_cast<double>(zs[i]));
+        if (!((p - at).squaredNorm() <= reach * reach)) continue;
+        const Eigen::Vector3d q = to_board * p;
+        if (std::abs(q.z()) > depth || q.x() < kOffEdges || q.y() < kOffEdges ||
+            q.x() > grid.width - kOffEdges || q.y() > grid.height - kOffEdges)
+            continue;
+        const bool by_hole =
+            std::any_of(grid.holes.begin(), grid.holes.end(), [&](const HoleGrid::Hole& hole) {
+                return q.x() > grid.x[hole.left].at - kOffEdges &&
+                       q.x() < grid.x[hole.right].at + kOffEdges &&
+                       q.y() > grid.y[hole.top].at - kOffEdges &&
+                       q.y() < grid.y[hole.bottom].at + kOffEdges;
+            });
+        if (by_hole) continue;
+        plate.push_back(p);
+        const auto part = [](double along, double size) {
+            return static_cast<std::size_t>(
+                std::clamp(static_cast<int>(along / size * kPlateParts), 0, kPlateParts - 1));
+        };
+        ++parts[part(q.y(), grid.height) * kPlateParts + part(q.x(), grid.width)];
+    }
+    const bool covered =
+        std::all_of(parts.begin(), parts.end(), [](int count) { return count >= kMinPartPoints; });
+    if (!covered) plate.clear();
+    return plate;
 }
 
 /// Where the plane's own points are: centre and radius.
@@ -95,10 +141,15 @@ hole's middle. Edge points lie on the board's side of the real edge (by 5 to 15 
 or outdoors on the other side, differently in both axes: the common shift takes that up without moving the board. The corners are
 exactly those of the target; `edge_inflation_x_mm` and `edge_inflation_y_mm` tell d, which has a prior of 0 +- 20 mm.
 
+A point's range errs by more than its direction, so it counts where its ray meets the board. The plane is that of the **plate's own points**
+where `cloud` holds them (wire the scene's cloud, and the margin points to the plane detector); they are taken 25 mm off every edge. In a cloud of margin points there are none:
+then the points on the sides tell the plane, which lie behind it by some mm, because beams that the rim cuts return late or blend with what is behind.
+
 The covariance of the pose (left perturbation; rho in m, phi in rad) is marginal over d. Points of one side are not independent: the beam
-and the background move the whole side. So an error common to each side's points is estimated beside that of the single point, across the sides and
-across the plane. Opposite edges moved unlike (a background on one side only, a plate's thickness seen obliquely) shift the board unseen:
-`edge_asymmetry` adds that. A range bias that the whole board shares is not in it.
+and the background move the whole side. So an error common to each side's points is estimated beside that of the single point: what opposite sides of a
+hole have in common shifts the board, what they have not only makes the hole smaller. Across the plane the same is done for cells of a fifth of the plate. What the points
+cannot tell is added: opposite edges moved unlike (`edge_asymmetry`; and an eighth of the plate's thickness as it is seen obliquely through a hole), 0.15 mm of the plate's place, and without
+points of the plate `edge_range_sigma` along the ray. A range bias that all points share is not in it.
 
 **Without it** the letter's plain lines are crossed: of two lines nearer than `min_line_distance` the one with fewer points goes; two lines as far
 apart as the board is wide are its edges and go; of one line too many, the one with the most points goes (the only edge seen: the lower
@@ -115,8 +166,10 @@ length have no tolerance there, here `edge_tolerance`.
 Order: row by row from the top left for an observer at the sensor whose up is the LiDAR's +z (its +x where +z is along the normal).
 The true upper side the LiDAR cannot tell: a square board looks alike in four orders.)");
     s.role("lidar_board_detector");
-    s.reads<Cloud>("cloud",
-                   "margin points in the LiDAR frame: the cloud that the planes were found in");
+    s.reads<Cloud>(
+        "cloud",
+        "the scene's points in the LiDAR frame, of which the plate's own tell its plane; or "
+        "the margin points that the planes were found in");
     s.reads<Planes>("planes", "plane patches with their points");
     s.writes<LidarBoards>("boards", "the boards, in the order of their planes");
     s.param("target", &Params::target)
@@ -160,8 +213,13 @@ The true upper side the LiDAR cannot tell: a square board looks alike in four or
         .within(0.0, 0.1)
         .doc(
             "1 sigma by which opposite edges may be moved unlike, which the points cannot tell; in "
-            "the "
-            "covariance only");
+            "the covariance only");
+    s.param("edge_range_sigma", &Params::edge_range_sigma)
+        .unit("m")
+        .within(0.0, 0.1)
+        .doc(
+            "1 sigma by which points on edges may lie behind the plate together; in the covariance "
+            "only, where no points of the plate tell its plane");
     s.param("min_side_coverage", &Params::min_side_coverage)
         .unit("1")
         .within(0.0, 1.0)
@@ -189,10 +247,14 @@ void BoardLines::run(Run& run) {
     const BoardFinder finder(grid, p_);
 
     LidarBoards boards;
-    boards.lidar = run.in<Cloud>("cloud").sensor_label;
+    const Cloud& cloud = run.in<Cloud>("cloud");
+    boards.lidar = cloud.sensor_label;
     std::vector<Eigen::Vector3d> points = gather(*planes);
     const double diagonal = std::hypot(grid.width, grid.height);
     const auto poll = [&run] { run.check_cancelled(); };
+    const auto plate_of = [&](const Eigen::Isometry3d& T_lidar_board) {
+        return plate_points(cloud, grid, T_lidar_board, p_.plane_threshold);
+    };
 
     struct Seen {
         std::size_t plane;
@@ -210,7 +272,7 @@ void BoardLines::run(Run& run) {
                 if (std::abs(plane.normal.dot(p) + plane.offset) <= p_.plane_threshold &&
                     (p - patch.centre).norm() <= patch.radius + 0.5 * diagonal)
                     near.push_back(p);
-            BoardAttempt attempt = finder.find(near, frame, run.rng(), poll);
+            BoardAttempt attempt = finder.find(near, frame, plate_of, run.rng(), poll);
             const bool found = attempt.board.has_value();
             if (found) {
                 attempt.board->target = target.name;

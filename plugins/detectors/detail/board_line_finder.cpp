@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kPlacementsTried = 3;
 constexpr std::size_t kMinPatternPoints = 3;  ///< on a line whose direction and place are known
 constexpr double kPlainTolerance = 0.018;     ///< m: a point is on a side, plain lines
+constexpr double kWallShare =
+    0.125;  ///< of what is seen of a hole's wall, 1 sigma of the board's shift
+constexpr double kPlateSigma = 0.00015;   ///< m: of a plate's place however many points tell it
 constexpr double kInflationSigma = 0.02;  ///< m: of d about zero; edges move by about half a beam
 
 /// A line in the form normal . p = at.
@@ -89,8 +92,8 @@ BoardFinder::BoardFinder(const HoleGrid& grid, const BoardFinderParams& params)
     : grid_(grid), params_(params) {}
 
 BoardAttempt BoardFinder::find(const std::vector<Eigen::Vector3d>& points,
-                               const Eigen::Isometry3d& frame, Rng& rng,
-                               const std::function<void()>& poll) const {
+                               const Eigen::Isometry3d& frame, const PlatePoints& plate_points,
+                               Rng& rng, const std::function<void()>& poll) const {
     BoardAttempt attempt;
     const Eigen::Isometry3d to_plane = frame.inverse();
     attempt.points.reserve(points.size());
@@ -112,7 +115,7 @@ BoardAttempt BoardFinder::find(const std::vector<Eigen::Vector3d>& points,
     const auto placements =
         place_pattern(grid_, split->angle, attempt.points, params_.max_inflation, kPlacementsTried);
     if (params_.use_target_spacing) {
-        fit_spaced(attempt, placements, points, frame);
+        fit_spaced(attempt, placements, points, frame, plate_points);
     } else {
         fit_plain(attempt, placements, *split, frame);
     }
@@ -121,10 +124,11 @@ BoardAttempt BoardFinder::find(const std::vector<Eigen::Vector3d>& points,
 
 void BoardFinder::fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPattern>& placements,
                              const std::vector<Eigen::Vector3d>& points,
-                             const Eigen::Isometry3d& frame) const {
+                             const Eigen::Isometry3d& frame,
+                             const PlatePoints& plate_points) const {
     std::optional<BoardFit> best;
     for (const ScoredPattern& placement : placements) {
-        auto fit = refine_board(grid_, points, to_lidar(placement.pose, frame),
+        auto fit = refine_board(grid_, points, {}, to_lidar(placement.pose, frame),
                                 placement.pose.inflation, kInflationSigma);
         if (fit && (!best || fit->score.value > best->score.value)) best = std::move(fit);
     }
@@ -132,6 +136,13 @@ void BoardFinder::fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPatt
         attempt.corners = place_corners(grid_, placements.front().pose);
         accept(attempt, placements.front().score, placements.front().pose.inflation);
         return;
+    }
+    const std::vector<Eigen::Vector3d> plate = plate_points(best->T_lidar_board);
+    const bool has_plate = !plate.empty();
+    if (has_plate) {
+        auto fit = refine_board(grid_, points, plate, best->T_lidar_board, best->inflation,
+                                kInflationSigma);
+        if (fit) best = std::move(fit);
     }
     LidarBoard board;
     board.T_lidar_board = best->T_lidar_board;
@@ -147,20 +158,41 @@ void BoardFinder::fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPatt
         attempt.threshold = printed("max_line_rms %.1f mm", params_.max_line_rms * 1e3);
         return;
     }
-    // Were the left edges moved more than the right ones, the board would seem shifted: from its
-    // own points nobody can tell.
     board.covariance = best->covariance;
-    const Eigen::Matrix<double, 3, 2> axes = best->T_lidar_board.linear().leftCols<2>();
-    board.covariance->topLeftCorner<3, 3>() +=
-        params_.edge_asymmetry * params_.edge_asymmetry * axes * axes.transpose();
+    board.covariance->topLeftCorner<3, 3>() += unseen_shift(best->T_lidar_board, has_plate);
     board.quality = quality(best->score, attempt);
     board.quality["edge_inflation_x_mm"] = best->inflation.x() * 1e3;
     board.quality["edge_inflation_y_mm"] = best->inflation.y() * 1e3;
     board.quality["edge_inflation_sigma_x_mm"] = best->inflation_sigma.x() * 1e3;
     board.quality["edge_inflation_sigma_y_mm"] = best->inflation_sigma.y() * 1e3;
     board.quality["line_rms_mm"] = best->line_rms * 1e3;
+    board.quality["line_common_mm"] = best->line_common * 1e3;
     board.quality["plane_rms_mm"] = best->plane_rms * 1e3;
+    board.quality["plane_common_mm"] = best->plane_common * 1e3;
+    board.quality["plate_points"] = static_cast<double>(plate.size());
     attempt.board = std::move(board);
+}
+
+/// What shifts the whole board and its own points cannot tell: covariance, LiDAR frame, m^2.
+Eigen::Matrix3d BoardFinder::unseen_shift(const Eigen::Isometry3d& T_lidar_board,
+                                          bool has_plate) const {
+    const Eigen::Vector2d middle = grid_.middle();
+    const Eigen::Vector3d ray =
+        (T_lidar_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0)).normalized();
+    const Eigen::Vector3d on_board = T_lidar_board.linear().transpose() * ray;
+    // Opposite edges moved unlike. Obliquely one sees the wall of a hole on one side only.
+    Eigen::Vector3d variances;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double wall = kWallShare * grid_.thickness * on_board(axis) / on_board.z();
+        variances(axis) = params_.edge_asymmetry * params_.edge_asymmetry + wall * wall;
+    }
+    variances.z() = has_plate ? kPlateSigma * kPlateSigma : 0.0;
+    Eigen::Matrix3d shift =
+        T_lidar_board.linear() * variances.asDiagonal() * T_lidar_board.linear().transpose();
+    // A beam that the rim cuts returns from a little behind the plate.
+    if (!has_plate)
+        shift += params_.edge_range_sigma * params_.edge_range_sigma * ray * ray.transpose();
+    return shift;
 }
 
 void BoardFinder::fit_plain(BoardAttempt& attempt, const std::vector<ScoredPattern>& placements,

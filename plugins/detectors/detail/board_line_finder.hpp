@@ -29,7 +29,8 @@ struct BoardFinderParams {
     double min_line_distance = 0.05;
     double edge_tolerance = 0.03;
     double max_inflation = 0.03;
-    double edge_asymmetry = 0.004;
+    double edge_asymmetry = 0.0001;
+    double edge_range_sigma = 0.0025;
     double min_side_coverage = 0.4;
     double min_sides = 0.75;
     double max_hole_points = 0.1;
@@ -53,14 +54,21 @@ class BoardFinder {
    public:
     BoardFinder(const HoleGrid& grid, const BoardFinderParams& params);
 
+    /// Points of the plate of a board at T_lidar_board, off its edges; LiDAR frame. Empty where it
+    /// has too few to tell the plane.
+    using PlatePoints =
+        std::function<std::vector<Eigen::Vector3d>(const Eigen::Isometry3d& T_lidar_board)>;
+
     /// `points`: LiDAR frame, near the plane; `frame`: T_lidar_plane of plane_frame().
     BoardAttempt find(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& frame,
-                      Rng& rng, const std::function<void()>& poll) const;
+                      const PlatePoints& plate_points, Rng& rng,
+                      const std::function<void()>& poll) const;
 
    private:
     void fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPattern>& placements,
-                    const std::vector<Eigen::Vector3d>& points,
-                    const Eigen::Isometry3d& frame) const;
+                    const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& frame,
+                    const PlatePoints& plate_points) const;
+    Eigen::Matrix3d unseen_shift(const Eigen::Isometry3d& T_lidar_board, bool has_plate) const;
     void fit_plain(BoardAttempt& attempt, const std::vector<ScoredPattern>& placements,
                    const LineSplit& split, const Eigen::Isometry3d& frame) const;
     bool intersect(BoardAttempt& attempt, const LineFamily& vertical, const LineFamily& horizontal,

@@ -38,6 +38,7 @@ HoleGrid HoleGrid::of(const Target& target) {
     HoleGrid grid;
     grid.width = target.width();
     grid.height = target.height();
+    grid.thickness = target.thickness;
     grid.corners = target.corners();
     if (target.holes.empty())
         throw Error("target '" + target.name + "' shows " + target.features() +

@@ -35,6 +35,7 @@ struct HoleGrid {
         crossings;  ///< of each corner: index in x, in y
     double width = 0.0;
     double height = 0.0;
+    double thickness = 0.0;
 
     std::size_t side_count() const { return 4 * holes.size(); }
     /// The middle of the outline's bounding box.
