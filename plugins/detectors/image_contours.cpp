@@ -65,6 +65,7 @@ ImageBoard to_image_board(const RefinedBoard& refined, const std::string& target
     board.camera = camera;
     board.corners = refined.corners;
     board.covariance = refined.covariance;
+    board.joint_covariance = refined.joint_covariance;
     const int sides = static_cast<int>(refined.side_measured.size());
     board.quality["holes_seen"] = holes_seen;
     board.quality["sides_measured"] = refined.sides_measured;

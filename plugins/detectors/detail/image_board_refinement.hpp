@@ -28,6 +28,7 @@ struct RefinedBoard {
     Homography board_to_image = Homography::Identity();  ///< m to ideal pixels
     std::vector<Eigen::Vector2d> corners;                ///< raw pixels, Target::corners() order
     std::vector<Eigen::Matrix2d> covariance;             ///< px^2
+    Eigen::MatrixXd joint_covariance;                    ///< of all corners, 2N x 2N, px^2
     std::vector<bool> side_measured;                     ///< HoleLayout::sides() order
     int sides_measured = 0;
     double hole_inset = 0.0;  ///< m: how much smaller than the target's the holes are, on each side

@@ -44,8 +44,8 @@ longer belong to the raw image and its K.
 
 Corners come row by row from the top left as the image shows the board. Their covariances follow
 from the scatter of the edge points (neighbours counted half), the prior and the homography, plus
-`sigma_floor_px`; corners of one side are correlated, which a covariance for each corner cannot
-tell.
+`sigma_floor_px`. Corners of one side are correlated: the joint covariance of all holds that, and
+that a plate's bright thickness, seen obliquely in a hole, may have shifted its sides.
 
 Quality of a board: `holes_seen` (as squares), `sides_measured`, `sides_from_geometry`,
 `line_rms_px` (edge points about their lines), `geometry_rms_px` (sides about the board's

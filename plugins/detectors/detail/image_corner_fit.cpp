@@ -47,15 +47,22 @@ std::vector<CornerFit::SideLine> CornerFit::fit_lines(const std::vector<SidePoin
                     own.push_back({2.0 * point.t - 1.0,
                                    side_residual(layout_, h, frame[s], point) - expected});
             const double weight = 1.0 / (kPointsShare * scatter * scatter);
+            Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
             for (const auto& [u, r] : own) {
                 const double huber = std::min(1.0, 3.0 * scatter / std::max(std::abs(r), 1e-9));
                 const Eigen::Vector2d row(1.0, u);
-                normal_matrix += huber * weight * row * row.transpose();
+                information += huber * row * row.transpose();
                 right += huber * weight * r * row;
             }
+            normal_matrix += weight * information;
             const Eigen::Matrix2d covariance = normal_matrix.inverse();
             const Eigen::Vector2d solution = covariance * right;
-            lines[s] = {expected + solution(0), solution(1), covariance(0, 0), covariance(1, 1)};
+            lines[s] = {
+                expected + solution(0), solution(1), covariance(0, 0), covariance(1, 1), {}};
+            // Two points at least, or they show no direction.
+            if (own.size() >= 2)
+                lines[s].own = {information.inverse() * right / weight, information,
+                                weight * covariance * information};
             if (!own.empty()) off_squares += solution(0) * solution(0);
             for (const auto& [u, r] : own) {
                 const double left = r - solution(0) - u * solution(1);
@@ -89,9 +96,11 @@ bool CornerFit::intersect(const std::vector<SideLine>& lines, const std::vector<
     const std::size_t count = layout_.corners().size();
     board.corners.assign(count, Eigen::Vector2d::Zero());
     board.covariance.assign(count, Eigen::Matrix2d::Identity());
+    std::vector<CornerCrossing> crossings;
     for (std::size_t c = 0; c < count; ++c) {
         Eigen::Matrix2d normals;
         Eigen::Vector2d distances, variances;
+        CornerCrossing crossed;
         int met = 0;
         for (std::size_t s = 0; s < lines.size() && met < 2; ++s) {
             const auto& side = layout_.sides()[s];
@@ -105,6 +114,8 @@ bool CornerFit::intersect(const std::vector<SideLine>& lines, const std::vector<
             normals.row(met) << along.y(), -along.x();
             distances(met) = normals.row(met).dot(start.transpose());
             variances(met) = line.offset_variance + line.tilt_variance;
+            crossed.side[met] = s;
+            crossed.sign[met] = side.to_corner == c ? 1.0 : -1.0;
             ++met;
         }
         if (met < 2 || std::abs(normals.determinant()) < 0.1) return false;
@@ -119,12 +130,19 @@ bool CornerFit::intersect(const std::vector<SideLine>& lines, const std::vector<
         if (!raw || !right || !down || !covariance.allFinite()) return false;
         Eigen::Matrix2d distortion;
         distortion << 2.0 * (*right - *raw), 2.0 * (*down - *raw);
+        crossed.crossing = inverse;
+        crossed.distortion = distortion;
+        crossings.push_back(crossed);
         covariance = distortion * covariance * distortion.transpose();
         covariance += sigma_floor_px_ * sigma_floor_px_ * Eigen::Matrix2d::Identity();
         board.corners[c] = *raw;
         board.covariance[c] = 0.5 * (covariance + covariance.transpose());
     }
-    return true;
+    std::vector<MeasuredSide> measured;
+    for (const SideLine& line : lines) measured.push_back(line.own);
+    board.joint_covariance =
+        corner_covariance(layout_, h, measured, crossings, scatter, board.hole_inset);
+    return board.joint_covariance.allFinite();
 }
 
 }  // namespace petal

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "detectors/detail/image_corner_covariance.hpp"
 #include "detectors/detail/image_hole_sides.hpp"
 #include "detectors/detail/image_layout.hpp"
 #include "petal/calibration/camera_model.hpp"
@@ -29,8 +30,9 @@ class CornerFit {
           tolerance_(tolerance),
           sigma_floor_px_(sigma_floor_px) {}
 
-    /// Reads board_to_image, side_measured and hole_inset of `board`; fills corners, covariances
-    /// and the two RMS. False where sides do not meet, or a corner is not in the camera's view.
+    /// Reads board_to_image, side_measured and hole_inset of `board`; fills corners, their
+    /// covariances (single and joint) and the two RMS. False where sides do not meet, or a corner
+    /// is not in the camera's view.
     bool fit(const std::vector<SidePoint>& points, RefinedBoard& board) const;
 
    private:
@@ -39,6 +41,7 @@ class CornerFit {
         double tilt = 0.0;    ///< px, further offset at the end (at the start: minus that)
         double offset_variance = 0.0;
         double tilt_variance = 0.0;
+        MeasuredSide own;
     };
 
     std::vector<SideLine> fit_lines(const std::vector<SidePoint>& points,
