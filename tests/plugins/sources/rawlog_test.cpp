@@ -140,6 +140,22 @@ TEST_F(RawlogStage, TakesTheSharpestImageUnlessToldOtherwise) {
     EXPECT_EQ(taken("last"), at(2.0));
 }
 
+TEST_F(RawlogStage, KeepsTheFirstAMiddleAndTheLastImageBesideTheChosenOne) {
+    std::vector<mrpt::serialization::CSerializable::Ptr> objects = {cloud("L", 0.0, 1.0F)};
+    for (int i = 0; i <= 20; ++i) objects.push_back(image("C", 0.1 * i, 0));
+    StageHarness harness = stage({rawlog("a.rawlog", objects)});
+    harness.set("image_choice", "first");
+    harness.fire();
+    const Images& images = harness.out<Images>("images");
+    ASSERT_EQ(images.cameras.size(), 1U);
+    EXPECT_EQ(images.cameras[0].stamp, at(0.0));
+    ASSERT_EQ(images.others.size(), 2U) << "the first is the chosen one";
+    // Every fourth is left of 21: that nearest to the middle is at 0.8 or 1.2 s.
+    EXPECT_NEAR(mrpt::Clock::toDouble(images.others[0].stamp), mrpt::Clock::toDouble(at(1.0)),
+                0.21);
+    EXPECT_EQ(images.others[1].stamp, at(2.0));
+}
+
 TEST_F(RawlogStage, SensorsAreChosenByLabelOrPattern) {
     const auto file =
         rawlog("a.rawlog", {cloud("LIDAR_left", 0.0, 1.0F), cloud("LIDAR_right", 0.0, 2.0F),
