@@ -89,8 +89,9 @@ PlanePointsMetric::Counts PlanePointsMetric::count(const Truth& truth, const Pla
             seen[board] = true;
             const double near = p_.edge_angle_deg / kDegrees * point.norm();
             if (place.edge <= near) ++counts.edge;
-            if (place.hole_side >= 0 && place.to_hole_side <= near)
-                ++sides[board][static_cast<std::size_t>(place.hole_side)];
+            const auto side = edges.nearest_hole_side(place.board, point);
+            if (side.side >= 0 && side.distance <= near)
+                ++sides[board][static_cast<std::size_t>(side.side)];
         }
     }
     for (std::size_t board = 0; board < sides.size(); ++board) {

@@ -82,17 +82,21 @@ BoardEdges::Place BoardEdges::place(const Eigen::Vector3d& point) const {
         found.away =
             std::hypot(inside_polygon(board.target.outline, p.head<2>()) ? 0.0 : aside, before);
     }
-    if (found.board < 0) return found;
-    const Board& board = boards_[static_cast<std::size_t>(found.board)];
+    return found;
+}
+
+BoardEdges::HoleSide BoardEdges::nearest_hole_side(int index, const Eigen::Vector3d& point) const {
+    const Board& board = boards_[static_cast<std::size_t>(index)];
     const Eigen::Vector2d p = (board.T_board_lidar * point).head<2>();
-    found.to_hole_side = kFar;
+    HoleSide found{-1, kFar};
     int side = 0;
     for (const auto& hole : board.target.holes)
         for (std::size_t i = 0; i < hole.size(); ++i, ++side) {
-            const double distance = distance_to_polygon({hole[i], hole[(i + 1) % hole.size()]}, p);
-            if (distance >= found.to_hole_side) continue;
-            found.to_hole_side = distance;
-            found.hole_side = side;
+            const Eigen::Vector2d d = hole[(i + 1) % hole.size()] - hole[i];
+            const double t = std::clamp((p - hole[i]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+            const double distance = (hole[i] + t * d - p).norm();
+            if (distance >= found.distance) continue;
+            found = {side, distance};
         }
     return found;
 }

@@ -44,13 +44,19 @@ class BoardEdges {
 
     /// Where a point lies on the board nearest to it.
     struct Place {
-        int board = -1;      ///< -1: there is no board, or the point has NaN
-        double away = 0.0;   ///< m, from the plate; 0 on it and in its holes' place in its plane
-        double edge = 0.0;   ///< m, in the board's plane, to the nearest side of outline or hole
-        int hole_side = -1;  ///< the nearest side of a polygonal hole, counted over the holes
-        double to_hole_side = 0.0;  ///< m, in the board's plane
+        int board = -1;     ///< -1: there is no board, or the point has NaN
+        double away = 0.0;  ///< m, from the plate; 0 on it and in its holes' place in its plane
+        double edge = 0.0;  ///< m, in the board's plane, to the nearest side of outline or hole
     };
     Place place(const Eigen::Vector3d& point) const;
+
+    /// The side of a polygonal hole of that board nearest to a point, in the board's plane; sides
+    /// are counted over the holes. -1 where there is none.
+    struct HoleSide {
+        int side = -1;
+        double distance = 0.0;  ///< m
+    };
+    HoleSide nearest_hole_side(int board, const Eigen::Vector3d& point) const;
     /// Sides of polygonal holes of a board.
     int hole_sides(int board) const;
     std::size_t size() const { return boards_.size(); }
