@@ -113,8 +113,10 @@ void Overlay::describe(Spec<Params>& s) {
     s.gathers<LidarBoards>("lidar_boards", "corners found by the LiDAR").optional();
     s.gathers<Correspondences>("correspondences", "pairs, for the residuals").optional();
     s.param("magnification", &Params::magnification)
-        .within(1, 8)
-        .doc("the picture is that many times as large as the photo");
+        .within(0, 8)
+        .doc(
+            "the picture is that many times as large as the photo; 0: twice as large where that is "
+            "narrower than 1000 pixels, else as large");
     s.param("residual_scale", &Params::residual_scale)
         .unit("1")
         .within(0.0, 1000.0)
@@ -133,7 +135,10 @@ void Overlay::finish(Run& run) {
         if (!scene.images) continue;
         for (const CameraImage& image : scene.images->cameras) {
             const CameraExtrinsics* solved = extrinsics_of(extrinsics, image.label);
-            OverlayCanvas canvas(image, params_.magnification);
+            constexpr std::size_t kNarrow = 1000;  // px: corners' marks cover less of a wider photo
+            const int automatic = image.image.getWidth() < kNarrow ? 2 : 1;
+            OverlayCanvas canvas(image,
+                                 params_.magnification > 0 ? params_.magnification : automatic);
             draw_camera(canvas, scene, image, solved, params_);
             if (solved == nullptr) {
                 canvas.draw_caption("no extrinsics for this camera: detected corners only");

@@ -10,7 +10,7 @@
 namespace petal {
 
 struct OverlayParams {
-    int magnification = 2;
+    int magnification = 0;
     double residual_scale = 10.0;
     int max_points = 200000;
 };
