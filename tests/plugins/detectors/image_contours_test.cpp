@@ -84,22 +84,30 @@ INSTANTIATE_TEST_SUITE_P(Tilts, ImageContoursView,
 TEST(ImageContours, CovarianceSaysHowFarCornersAreOff) {
     const Target target = load_target(kTarget);
     const auto camera = make_camera(640, 480, 500.0);
-    double normalised = 0.0, count = 0.0;
+    double normalised = 0.0, joint = 0.0, count = 0.0;
     for (int i = 0; i < 6; ++i) {
         const auto pose =
             board_pose(target, {0.05 * i, 0.03 * i, 1.8 + 0.13 * i}, 5.0 * i, 12.0, 3.0 * i);
         const ImageBoards found = detect(Photo(camera).add(target, pose).take(0.8, 3.0));
         ASSERT_EQ(found.boards.size(), 1u);
         const auto truth = true_corners(target, CameraModel(camera), pose);
+        Eigen::VectorXd errors(32);
         for (std::size_t c = 0; c < truth.size(); ++c, count += 2.0) {
             const Eigen::Vector2d error = found.boards[0].corners[c] - truth[c];
+            errors.segment<2>(static_cast<Eigen::Index>(2 * c)) = error;
             normalised += error.dot(found.boards[0].covariance[c].inverse() * error);
         }
+        ASSERT_EQ(found.boards[0].joint_covariance.rows(), 32);
+        joint += errors.dot(found.boards[0].joint_covariance.inverse() * errors);
     }
     // 1 where the covariance is right. It may be too careful (the floor is for real photos), hardly
     // too bold.
     EXPECT_LT(normalised / count, 1.5);
     EXPECT_GT(normalised / count, 0.1);
+    // Of all together no floor hides what is too bold. Six boards of 32 figures, each with a
+    // variance known from 22: 1.1 +- 0.2.
+    EXPECT_LT(joint / count, 2.0);
+    EXPECT_GT(joint / count, 0.4);
 }
 
 TEST(ImageContours, KeepsToRawPixelsUnderDistortion) {
