@@ -161,6 +161,7 @@ class JointReport {
                  pixel_sigma(model, diagnosis.covariance_considered, range)});
         AdviceParams advice;
         advice.range_offset_sigma = options_.range_offset_sigma;
+        advice.variance_scale = diagnosis.variance_scale;
         advice.min_range = params_.advice_min_range;
         advice.max_range = params_.advice_max_range;
         if (params_.usable_sigma > 0.0) advice.usable_sigma = params_.usable_sigma;

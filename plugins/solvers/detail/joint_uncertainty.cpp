@@ -3,6 +3,7 @@
 
 #include "solvers/detail/joint_uncertainty.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -94,9 +95,9 @@ Eigen::Matrix<double, 7, 7> JointUncertainty::information(std::size_t camera) co
     std::vector<Eigen::Index> both;
     for (Eigen::Index i = 0; i < 6; ++i) both.push_back(6 * static_cast<Eigen::Index>(camera) + i);
     both.push_back(6 * static_cast<Eigen::Index>(layout_.cameras()));
-    Eigen::Matrix<double, 7, 7> known = inverse_information(part(inverse_, both, both));
+    Eigen::Matrix<double, 7, 7> known = part(inverse_, both, both).inverse();
     known(6, 6) -= 1.0 / (range_offset_sigma_ * range_offset_sigma_);
-    return known / scale_;
+    return known;
 }
 
 Matrix6d JointUncertainty::covariance_considered(std::size_t camera,

@@ -44,8 +44,8 @@ class JointUncertainty {
     /// The focal length as it is estimated, or as one step from the solution would make it.
     Diagnosis::FocalScale focal(std::size_t camera) const;
 
-    /// What the data say of a camera's pose and the range offset, 7 x 7, all else eliminated; the
-    /// prior of the offset is not in it, the variance scale is.
+    /// What the data say of a camera's pose and the range offset, 7 x 7, all else eliminated;
+    /// neither the prior of the offset nor the variance scale is in it.
     Eigen::Matrix<double, 7, 7> information(std::size_t camera) const;
 
     /// Each scene's share of the information on what is estimated; they sum up to 1.

@@ -235,8 +235,8 @@ std::optional<Diagnosis::Advice> advise_placement(const JointModel& model,
     PlacementSearch search(projection, pose, solution.state.focal[camera], *noise);
     const Matrix6d map = column_map(pose);
     const auto sigmas = [&](const Matrix7d& information) {
-        return Sigmas(map * pose_covariance(information, params.range_offset_sigma) *
-                      map.transpose());
+        return Sigmas(params.variance_scale * map *
+                      pose_covariance(information, params.range_offset_sigma) * map.transpose());
     };
     const Sigmas before = sigmas(known);
     double best = kWorthwhile * before.worst(params);

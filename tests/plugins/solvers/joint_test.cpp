@@ -68,6 +68,12 @@ TEST(Joint, SixDiversePlacementsAreUsable) {
     EXPECT_EQ(stage.verdict(), Level::usable) << all_reasons(stage);
     const auto& camera = joined_camera(stage);
     EXPECT_LT(joint_metres(camera.T_camera_lidar, JointScenes::true_pose()), 0.005);
+    // The advice starts from the very sigmas that are told.
+    ASSERT_TRUE(camera.diagnosis->advice.has_value());
+    const auto& advice = *camera.diagnosis->advice;
+    EXPECT_NEAR(advice.sigma_translation_before, principal_sigma(camera).translation, 1e-6);
+    EXPECT_NEAR(advice.sigma_rotation_before, principal_sigma(camera).rotation, 1e-6);
+    EXPECT_LT(advice.sigma_rotation_after, advice.sigma_rotation_before);
     ASSERT_EQ(camera.diagnosis->drifts.size(), 3u);
     for (const auto& drift : camera.diagnosis->drifts) EXPECT_GT(drift.considered_px, drift.px);
     EXPECT_THAT(camera.weakest_direction, HasSubstr("straight ahead at 5, 20 and 50 m"));
