@@ -23,3 +23,4 @@ cp "$pages"/stages/*.md docs/stages/
 sed -i -e '/<!-- stages:begin -->/,/<!-- stages:end -->/{//!d}' -e "/<!-- stages:begin -->/r $pages/table" README.md
 build/bin/petal schema --out pipelines/petal.schema.json
 build/bin/petal schema --patch --out pipelines/petal.patch.schema.json
+build/bin/petal schema --comparison --out pipelines/petal.compare.schema.json

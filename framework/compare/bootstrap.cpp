@@ -50,12 +50,16 @@ double mean_of(const std::vector<double>& values) {
 Bootstrap::Bootstrap(std::uint64_t seed, std::string_view name, double confidence)
     : rng_(hash_of(seed, name)), confidence_(confidence) {}
 
+std::size_t Bootstrap::draw(std::size_t count) {
+    return static_cast<std::size_t>(((rng_() >> 32U) * count) >> 32U);
+}
+
 template <class Statistic>
 Interval Bootstrap::interval(const std::vector<double>& values, Statistic statistic) {
     std::vector<double> found(kResamples);
     std::vector<double> sample(values.size());
     for (double& one : found) {
-        for (double& value : sample) value = values[rng_() % values.size()];
+        for (double& value : sample) value = values[draw(values.size())];
         one = statistic(sample);
     }
     std::sort(found.begin(), found.end());

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string_view>
@@ -38,6 +39,8 @@ class Bootstrap {
     Interval mean(const std::vector<double>& values);
 
    private:
+    /// 0 to count - 1, as good as evenly. \pre count < 2^32.
+    std::size_t draw(std::size_t count);
     template <class Statistic>
     Interval interval(const std::vector<double>& values, Statistic statistic);
 

@@ -47,10 +47,12 @@ class UnitTable {
     template <class Value>
     std::vector<Pair> pairs(std::size_t variant, std::size_t reference, Value value) const {
         std::vector<Pair> pairs;
+        std::set<std::pair<std::string, std::string>> seen;  // alike data are no further evidence
         for (const UnitOutcome& unit : units_) {
             if (unit.variant != variant) continue;
             const auto other = by_place_.find({reference, unit.data, unit.seed});
             if (other == by_place_.end()) continue;
+            if (!unit.key.empty() && !seen.insert({other->second->key, unit.key}).second) continue;
             pairs.push_back({unit.data, value(*other->second), value(unit)});
         }
         return pairs;

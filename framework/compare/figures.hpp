@@ -18,6 +18,7 @@ struct UnitOutcome {
     std::size_t variant = 0;
     std::size_t data = 0;
     std::uint64_t seed = 0;
+    std::string key;      ///< units of one key are one unit; empty: not known
     std::string failure;  ///< error, crash, not_usable, weak; empty: none
     std::string reason;   ///< of a failure
     std::string verdict;  ///< of the run; may be empty

@@ -171,14 +171,13 @@ class Planner {
         Group group;
         group.data = data;
         group.seed = seed;
-        std::set<std::string> keys;
         for (std::size_t v = 0; v < comparison_.variants.size(); ++v) {
             Unit unit;
             unit.variant = v;
             unit.data = data;
             unit.seed = seed;
             unit.key = key_of(unit);
-            if (keys.insert(unit.key).second) group.units.push_back(plan_.units.size());
+            if (keys_.insert(unit.key).second) group.units.push_back(plan_.units.size());
             plan_.units.push_back(std::move(unit));
         }
         plan_.groups.push_back(std::move(group));
@@ -189,6 +188,7 @@ class Planner {
     FileSums& sums_;
     Plan plan_;
     std::set<std::string> told_;
+    std::set<std::string> keys_;  ///< of all groups: data items may be alike too
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ struct Unit {
 struct Group {
     std::size_t data = 0;
     std::uint64_t seed = 0;
-    std::vector<std::size_t> units;  ///< one for each key; numbers of Plan::units
+    std::vector<std::size_t> units;  ///< numbers of Plan::units; each key in one group
 };
 
 struct Plan {

@@ -99,6 +99,7 @@ std::vector<UnitOutcome> make_outcomes(const Comparison& comparison, const Plan&
         outcome.variant = unit.variant;
         outcome.data = unit.data;
         outcome.seed = unit.seed;
+        outcome.key = unit.key;
         outcome.verdict = record.verdict;
         outcome.failure = failure_of(record, comparison.fails_on);
         if (outcome.failure.empty()) {

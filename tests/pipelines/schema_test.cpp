@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "built_plugins.hpp"
+#include "comparison_reader.hpp"
 #include "petal_process.hpp"
 
 // The shipped schemas are those of the stages, and an independent validator and `petal check`
@@ -38,11 +39,14 @@ std::vector<fs::path> documents_in(const fs::path& folder) {
 
 const fs::path kPipelineSchema = kPipelines / "petal.schema.json";
 const fs::path kPatchSchema = kPipelines / "petal.patch.schema.json";
+const fs::path kComparisonSchema = kPipelines / "petal.compare.schema.json";
 
 TEST(Schema, TheShippedOnesAreUpToDate) {
     const Registry& stages = built_plugins().registry;
     EXPECT_EQ(read_text(kPipelineSchema), pipeline_schema(stages)) << "run scripts/update_docs.sh";
     EXPECT_EQ(read_text(kPatchSchema), patch_schema(stages)) << "run scripts/update_docs.sh";
+    EXPECT_EQ(read_text(kComparisonSchema), compare::comparison_schema(stages))
+        << "run scripts/update_docs.sh";
 }
 
 TEST(Schema, EveryPipelineAndVariantNamesItsOwn) {
@@ -50,6 +54,9 @@ TEST(Schema, EveryPipelineAndVariantNamesItsOwn) {
         EXPECT_EQ(json::parse(read_text(file)).value("$schema", ""), "petal.schema.json") << file;
     for (const fs::path& file : documents_in(kPipelines / "variants"))
         EXPECT_EQ(json::parse(read_text(file)).value("$schema", ""), "../petal.patch.schema.json")
+            << file;
+    for (const fs::path& file : documents_in(kPipelines / "compare"))
+        EXPECT_EQ(json::parse(read_text(file)).value("$schema", ""), "../petal.compare.schema.json")
             << file;
 }
 
@@ -109,6 +116,45 @@ TEST_F(SchemaCommand, AcceptsEveryPipelineAndVariant) {
     PETAL_NEEDS_VALIDATOR();
     EXPECT_THAT(faults(validated(kPipelineSchema, documents_in(kPipelines))), IsEmpty());
     EXPECT_THAT(faults(validated(kPatchSchema, documents_in(kPipelines / "variants"))), IsEmpty());
+    EXPECT_THAT(faults(validated(kComparisonSchema, documents_in(kPipelines / "compare"))),
+                IsEmpty());
+}
+
+TEST_F(SchemaCommand, OfComparisonsRefusesWhatTheCheckRefuses) {
+    PETAL_NEEDS_VALIDATOR();
+    const auto comparison = [&](const std::string& name, const std::string& more,
+                                const std::string& metric = R"("better": "lower")") {
+        const std::string base = (kPipelines / "letter.json").string();
+        return write(name + ".json", "{\"petal_compare\": 1, \"base\": \"" + base +
+                                         "\", \"metrics\": {\"m\": {" + metric + "}}" + more + "}");
+    };
+    const std::vector<fs::path> right{
+        comparison("plain", ""),
+        comparison("seeds", R"(, "seeds": "1..3,7")"),
+        comparison("list", R"(, "seeds": [1, 2], "confidence": 0.9)"),
+        comparison("patch", R"(, "variants": {"a": {"patch": {"stages": {"overlay": null}}}})"),
+        comparison("sweep", R"(, "sweep": {"margins.margin_step_deg": [0.1]})"),
+        comparison("margin", "", R"("better": "none", "margin": 0.5, "unit": "m")"),
+    };
+    EXPECT_THAT(faults(validated(kComparisonSchema, right)), IsEmpty());
+    const std::vector<fs::path> wrong{
+        comparison("key", R"(, "sedes": "1..3")"),
+        comparison("range", R"(, "seeds": "1-3")"),
+        comparison("name", R"(, "variants": {"a b": {}})"),
+        comparison("patsh", R"(, "variants": {"a": {"patsh": {}}})"),
+        comparison("in_patch", R"(, "variants": {"a": {"patch": {"stagse": {}}}})"),
+        comparison("no_list", R"(, "sweep": {"margins.margin_step_deg": 0.1})"),
+        comparison("better", "", R"("better": "small")"),
+        comparison("no_better", "", R"("unit": "m")"),
+        comparison("margins", "", R"("better": "lower", "margin": 1, "margin_share": 0.1)"),
+    };
+    const std::string told = validated(kComparisonSchema, wrong);
+    for (const fs::path& file : wrong) EXPECT_THAT(told, Not(HasSubstr(file.string() + ": valid")));
+    const std::string data = " --data '" + folder_.string() + "'";
+    for (const fs::path& file : right)
+        EXPECT_EQ(petal("compare --check '" + file.string() + "'" + data).exit_code, 0) << file;
+    for (const fs::path& file : wrong)
+        EXPECT_EQ(petal("compare --check '" + file.string() + "'" + data).exit_code, 2) << file;
 }
 
 TEST_F(SchemaCommand, AcceptsEveryEffectivePipeline) {

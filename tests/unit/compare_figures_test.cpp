@@ -18,10 +18,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// Seen in truth.rotation_deg and truth.translation_m of letter.json on indoor_four_boards (6 s, 12
-/// seeds): the errors of different seeds spread by a factor of e^0.7 (standard deviation of their
+/// seeds): the errors of different seeds spread by a factor of e (standard deviation of their
 /// logarithm).
-constexpr double kSeedSpread = 0.7;
-/// And two variants on the same seed, beside a constant factor: e^0.1.
+constexpr double kSeedSpread = 1.0;
+/// And two variants on the same seed, beside a constant factor: petal's solver and PnP differ by
+/// e^0.03 there; three times that is taken.
 constexpr double kPairSpread = 0.1;
 
 Comparison comparison_of(std::vector<std::string> variants, std::vector<std::string> metrics) {
@@ -97,6 +98,7 @@ TEST(CompareFigures, APipelineAgainstItselfIsSeldomCalledBetterOrWorse) {
         called += is_call(verdict(figures, 0)) || is_call(verdict(figures, 1)) ||
                   is_call(verdict(figures, 2));
     }
+    RecordProperty("called", called);
     EXPECT_LE(called, kTimes * 5 / 100);
     EXPECT_GT(called, 0) << "a test that never calls anything would pass too";
 }
@@ -115,6 +117,7 @@ TEST(CompareFigures, NeitherWithOneMetric) {
                     unit(variant, seed, {{"rotation", draws.log_normal(0.1, kSeedSpread)}}));
         called += is_call(verdict(make_figures(comparison, units), 0));
     }
+    RecordProperty("called", called);
     EXPECT_LE(called, kTimes * 5 / 100);
 }
 
@@ -134,12 +137,13 @@ TEST(CompareFigures, ALossOfATenthIsSeenWithFortySeeds) {
     Draws draws(3);
     const Comparison comparison = comparison_of({"a", "b"}, {"rotation"});
     int worse = 0;
-    constexpr int kTimes = 100;
+    constexpr int kTimes = 60;
     for (int i = 0; i < kTimes; ++i) {
         const Verdict called = verdict(make_figures(comparison, scaled_units(draws, 40, 1.1)), 0);
         EXPECT_NE(called, Verdict::better);
         worse += called == Verdict::worse ? 1 : 0;
     }
+    RecordProperty("worse", worse);
     EXPECT_GE(worse, kTimes * 95 / 100);
 }
 
@@ -167,8 +171,8 @@ std::vector<UnitOutcome> units_with_failures(Draws& draws, std::uint64_t seeds) 
 
 TEST(CompareFigures, WhoFailsOnEveryFourthSceneIsNotBetterHoweverManySeeds) {
     Comparison comparison = comparison_of({"a", "b"}, {"rotation"});
-    for (const std::uint64_t seeds : {8U, 20U, 40U, 100U, 400U, 2000U}) {
-        for (std::uint64_t repeat = 0; repeat < 5; ++repeat) {
+    for (const std::uint64_t seeds : {8U, 20U, 40U, 100U, 1000U}) {
+        for (std::uint64_t repeat = 0; repeat < 3; ++repeat) {
             Draws draws(100 * seeds + repeat);
             const auto units = units_with_failures(draws, seeds);
             const Figures figures = make_figures(comparison, units);
@@ -226,6 +230,21 @@ TEST(CompareFigures, SeedsThatChangeNothingCountOnce) {
     EXPECT_EQ(figures.metrics[0].variants[1].judgement->pairs, 20U);
     EXPECT_EQ(verdict(figures, 0), Verdict::worse);
     EXPECT_EQ(figures.failures[1].judgement->verdict, Verdict::worse);
+}
+
+TEST(CompareFigures, DataThatAreAlikeCountOnce) {
+    Comparison comparison = comparison_of({"a", "b"}, {"rotation"});
+    comparison.data.push_back(comparison.data.front());
+    std::vector<UnitOutcome> units;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+        for (const std::size_t variant : {0U, 1U})
+            for (const std::size_t data : {0U, 1U}) {
+                units.push_back(
+                    unit(variant, seed, {{"rotation", static_cast<double>(seed + variant)}}));
+                units.back().data = data;
+                units.back().key = std::to_string(10 * seed + variant);
+            }
+    EXPECT_EQ(make_figures(comparison, units).metrics[0].variants[1].judgement->pairs, 4U);
 }
 
 TEST(CompareFigures, DataWithoutAMetricIsLeftOutOfIt) {

@@ -65,6 +65,13 @@ TEST_F(CompareUnits, AGroupIsOneDataItemAndSeedWithAllVariants) {
     EXPECT_NE(plan_.units[0].key, plan_.units[plan_.groups[2].units[0]].key) << "another seed";
 }
 
+TEST_F(CompareUnits, DataThatAreAlikeAreRunOnce) {
+    plan(R"("variants": {"a": {}, "b": {"set": {"first.by": 3}}}, "data": {"x": {}, "y": {}})");
+    EXPECT_EQ(plan_.units.size(), 4U);
+    EXPECT_EQ(plan_.groups[0].units.size(), 2U);
+    EXPECT_THAT(plan_.groups[1].units, IsEmpty());
+}
+
 TEST_F(CompareUnits, WhatVariantsShareIsExecutedOnce) {
     plan(R"("variants": {"a": {}, "b": {"set": {"second.by": 3}}, "c": {"set": {"first.by": 3}},
                          "d": {"set": {"second.by": 4}}}, "seeds": "1..2")");
