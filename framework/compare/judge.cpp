@@ -52,27 +52,34 @@ double excess_failures(const MetricJudgement& judgement) {
            static_cast<double>(judgement.pairs);
 }
 
-/// How many more pairs would show the difference, or that it stays inside the margin: the
-/// interval's half width shrinks as 1/sqrt(n). Holm's first, strictest level is taken.
+/// How many more pairs would show the difference, or that it stays inside the margin: the distance
+/// from the median to the interval's end on that side shrinks as 1/sqrt(n). Holm's first, strictest
+/// level is taken.
 std::optional<std::size_t> more_pairs(const MetricJudgement& judgement, double confidence,
                                       std::size_t tests, bool difference_may_count,
                                       bool equivalence_may_count) {
-    const double half_width = 0.5 * (judgement.median.high - judgement.median.low);
-    const double distance = std::abs(judgement.median.value);
-    if (!std::isfinite(half_width) || !std::isfinite(distance)) return std::nullopt;
+    const Interval& median = judgement.median;
+    const bool positive = median.value > 0.0;
+    const double inward = positive ? median.value - median.low : median.high - median.value;
+    const double outward = positive ? median.high - median.value : median.value - median.low;
+    const double distance = std::abs(median.value);
     const double alpha = 1.0 - confidence;
+    const auto family = static_cast<double>(tests);
     const double power = normal_quantile(0.8);
     const double now = normal_quantile(1.0 - 0.5 * alpha);
-    const double strictest = normal_quantile(1.0 - 0.5 * alpha / static_cast<double>(tests));
+    const double strictest = normal_quantile(1.0 - 0.5 * alpha / family);
     const auto n = static_cast<double>(judgement.pairs);
     double needed = kInfinity;
-    const auto consider = [&](double level, double room) {
-        if (room <= 0.0) return;
-        const double ratio = (level + power) / now * half_width / room;
-        needed = std::min(needed, std::max(static_cast<double>(kFewestPairs), n * ratio * ratio));
+    const auto consider = [&](double width, double level, double room, double fewest) {
+        if (!std::isfinite(width) || !std::isfinite(distance) || room <= 0.0) return;
+        const double ratio = (level + power) / now * width / room;
+        needed = std::min(needed, std::max(fewest, n * ratio * ratio));
     };
-    if (difference_may_count) consider(strictest, distance);
-    if (equivalence_may_count) consider(now, judgement.margin - distance);
+    const auto fewest = static_cast<double>(kFewestPairs);
+    // With fewer, no p-value of signs is small enough.
+    const double signs = std::ceil(1.0 + std::log2(family / alpha));
+    if (difference_may_count) consider(inward, strictest, distance, std::max(fewest, signs));
+    if (equivalence_may_count) consider(outward, now, judgement.margin - distance, fewest);
     if (needed > kMostPairs) return std::nullopt;
     return static_cast<std::size_t>(std::max(1.0, std::ceil(needed - n)));
 }
