@@ -36,7 +36,7 @@ struct Diagnosis {
     };
     std::vector<Scene> scenes;
 
-    /// What one sigma of the weakest direction does to a pixel.
+    /// The largest 1 sigma of a pixel, from the whole covariance.
     struct Drift {
         double range = 0.0;  ///< m, straight ahead of the camera
         double px = 0.0;
