@@ -12,6 +12,7 @@
 
 #include "loader.hpp"
 #include "petal/output.hpp"
+#include "petal/printed.hpp"
 #include "petal/stage.hpp"
 #include "runner_fakes.hpp"
 
@@ -113,11 +114,11 @@ class Tell final : public petal::Stage {
         const petal::Level level = mean > params_.not_usable_above ? petal::Level::not_usable
                                    : mean > params_.weak_above     ? petal::Level::weak
                                                                    : petal::Level::usable;
-        run.verdict(level, {"the mean is " + std::to_string(mean)});
+        run.verdict(level, {"the mean is " + petal::printed("%.6f", mean)});
         run.output("result.json", [&](const std::filesystem::path& path) {
             if (params_.write_fails) throw petal::WriteError("no space is left");
             petal::write_file(
-                path, "{\"metrics\": {\"mean.value\": " + std::to_string(mean) +
+                path, "{\"metrics\": {\"mean.value\": " + petal::printed("%.6f", mean) +
                           "}, \"list\": [1, {\"count\": " + std::to_string(all.size()) + "}]}\n");
         });
     }
