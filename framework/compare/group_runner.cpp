@@ -76,6 +76,7 @@ GroupRunner::Prepared GroupRunner::prepare(const Unit& unit) const {
 void GroupRunner::run(const std::vector<std::size_t>& units,
                       const std::function<void(const UnitRecord&)>& finished) {
     std::vector<Prepared> all;
+    all.reserve(units.size());
     for (const std::size_t unit : units) all.push_back(prepare(plan_.units[unit]));
     wanted_.clear();
     tapes_.clear();
