@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "detectors/detail/image_corner_fit.hpp"
+#include "detectors/detail/image_hole_walls.hpp"
 
 #include "petal/printed.hpp"
 
@@ -56,16 +57,31 @@ RefinedBoard BoardRefiner::refine(const Homography& rough) const {
     const std::array<std::array<double, 3>, 4> ranges{
         {{0.35, 2.5, 12.0}, {0.2, 2.0, 6.0}, {0.12, 1.5, 3.0}, {0.12, 1.5, 3.0}}};
     std::vector<SidePoint> points;
+    const HoleWalls walls(layout_, camera_.camera());
+    std::array<double, 2> share{0.0, 0.0};
+    board.wall.assign(layout_.sides().size(), 0.0);
     for (const auto& [in_sides, least, most] : ranges) {
         points = measure(h, in_sides, least, most);
         board.side_measured.assign(layout_.sides().size(), true);
         for (int round = 0; round < 2; ++round) {
-            if (!fit_board(h, points, board.side_measured) || !layout_.plausible(h, 0.2)) {
+            if (!fit_board(h, points, board.side_measured, board.wall) ||
+                !layout_.plausible(h, 0.2)) {
                 board.rejected = "the hole sides' edge points fit no homography";
                 return board;
             }
-            board.hole_inset = fit_inset(h, points, board.side_measured);
-            board.side_measured = select_sides(h, points, board.hole_inset);
+            if (limits_.model_walls) {
+                const std::vector<double> shown = walls.shown(h);
+                share = walls.share(shown, share, side_insets(h, points, board.wall),
+                                    board.side_measured);
+                for (std::size_t s = 0; s < shown.size(); ++s)
+                    board.wall[s] = share[static_cast<std::size_t>(walls.axis(s))] * shown[s];
+                if (!fit_board(h, points, board.side_measured, board.wall)) {
+                    board.rejected = "the hole sides' edge points fit no homography";
+                    return board;
+                }
+            }
+            board.hole_inset = fit_inset(h, points, board.side_measured, board.wall);
+            board.side_measured = select_sides(h, points, board.hole_inset, board.wall);
         }
     }
     board.sides_measured =
@@ -160,14 +176,15 @@ std::vector<SidePoint> BoardRefiner::measure(const Homography& h, double reach_i
 }
 
 bool BoardRefiner::fit_board(Homography& h, const std::vector<SidePoint>& points,
-                             const std::vector<bool>& use) const {
+                             const std::vector<bool>& use, const std::vector<double>& wall) const {
     const HomographyStep perturbation(layout_);
     for (int iteration = 0; iteration < 15; ++iteration) {
         const std::vector<SideFrame> frame = side_frames(layout_, h);
         std::vector<double> size;
         for (const SidePoint& point : points)
             if (use[point.side])
-                size.push_back(std::abs(side_residual(layout_, h, frame[point.side], point)));
+                size.push_back(std::abs(side_residual(layout_, h, frame[point.side], point) +
+                                        wall[point.side] * frame[point.side].px_per_m));
         if (size.size() < 16) return false;
         const double scatter = std::max(1.4826 * median(size), kLeastScatter);
         Matrix8d normal_matrix = Matrix8d::Zero();
@@ -175,7 +192,8 @@ bool BoardRefiner::fit_board(Homography& h, const std::vector<SidePoint>& points
         for (const SidePoint& point : points) {
             if (!use[point.side]) continue;
             const auto& s = layout_.sides()[point.side];
-            const double r = side_residual(layout_, h, frame[point.side], point);
+            const double r = side_residual(layout_, h, frame[point.side], point) +
+                             wall[point.side] * frame[point.side].px_per_m;
             const double ratio = r / (2.4 * scatter);
             const double weight = 1.0 / (1.0 + ratio * ratio);  // Cauchy
             const Vector8d row =
@@ -194,30 +212,42 @@ bool BoardRefiner::fit_board(Homography& h, const std::vector<SidePoint>& points
     return true;
 }
 
-double BoardRefiner::fit_inset(const Homography& h, const std::vector<SidePoint>& points,
-                               const std::vector<bool>& use) const {
+std::vector<double> BoardRefiner::side_insets(const Homography& h,
+                                              const std::vector<SidePoint>& points,
+                                              const std::vector<double>& wall) const {
     const std::vector<SideFrame> frame = side_frames(layout_, h);
+    std::vector<std::vector<double>> offsets(layout_.sides().size());
+    for (const SidePoint& point : points)
+        offsets[point.side].push_back(side_residual(layout_, h, frame[point.side], point));
+    std::vector<double> insets(offsets.size(), 0.0);
+    for (std::size_t s = 0; s < insets.size(); ++s)
+        if (!offsets[s].empty()) insets[s] = -median(offsets[s]) / frame[s].px_per_m - wall[s];
+    return insets;
+}
+
+double BoardRefiner::fit_inset(const Homography& h, const std::vector<SidePoint>& points,
+                               const std::vector<bool>& use,
+                               const std::vector<double>& wall) const {
+    const std::vector<double> each = side_insets(h, points, wall);
+    std::vector<bool> seen(each.size(), false);
+    for (const SidePoint& point : points) seen[point.side] = true;
     std::vector<double> insets;
-    for (std::size_t s = 0; s < layout_.sides().size(); ++s) {
-        if (!use[s]) continue;
-        std::vector<double> offsets;
-        for (const SidePoint& point : points)
-            if (point.side == s) offsets.push_back(side_residual(layout_, h, frame[s], point));
-        if (!offsets.empty()) insets.push_back(-median(offsets) / frame[s].px_per_m);
-    }
+    for (std::size_t s = 0; s < each.size(); ++s)
+        if (use[s] && seen[s]) insets.push_back(each[s]);
     return std::clamp(median(insets), -kMaxInset, kMaxInset);
 }
 
 std::vector<bool> BoardRefiner::select_sides(const Homography& h,
-                                             const std::vector<SidePoint>& points,
-                                             double inset) const {
+                                             const std::vector<SidePoint>& points, double inset,
+                                             const std::vector<double>& wall) const {
     const std::size_t sides = layout_.sides().size();
     const std::vector<SideFrame> frame = side_frames(layout_, h);
     std::vector<std::vector<double>> offsets(sides), strength(sides);
     std::vector<double> strengths;
     for (const SidePoint& point : points) {
         const SideFrame& own = frame[point.side];
-        offsets[point.side].push_back(side_residual(layout_, h, own, point) + inset * own.px_per_m);
+        offsets[point.side].push_back(side_residual(layout_, h, own, point) +
+                                      (inset + wall[point.side]) * own.px_per_m);
         strength[point.side].push_back(point.strength);
         strengths.push_back(point.strength);
     }

@@ -15,6 +15,7 @@
 namespace petal {
 
 struct RefinementLimits {
+    bool model_walls = true;     ///< the plate's thickness shows in the holes
     double tolerance = 0.001;    ///< m, 1 sigma: how straight and in place the hole sides are cut
     double min_contrast = 0.15;  ///< (plate - holes) / plate
     double min_plate_fraction =
@@ -32,6 +33,9 @@ struct RefinedBoard {
     std::vector<bool> side_measured;                     ///< HoleLayout::sides() order
     int sides_measured = 0;
     double hole_inset = 0.0;  ///< m: how much smaller than the target's the holes are, on each side
+    /// m: how much further into the hole each side's edge is seen than the front edge lies, since
+    /// the wall of the hole shows. HoleLayout::sides() order.
+    std::vector<double> wall;
     double line_rms_px = 0.0;   ///< edge points about the lines of their sides
     double board_rms_px = 0.0;  ///< measured sides about the board's geometry
     double contrast = 0.0;
@@ -45,8 +49,10 @@ struct RefinedBoard {
 /// in ideal pixels); a side that does not lie where the others put it is no edge of this board but
 /// something behind it, and is taken from the homography. The holes of a board may all be a little
 /// smaller or larger than the target says (cut so, or its bright plate blooms): one common inset is
-/// fitted too. Each side's line is then its own edge points' with this geometry as the prior (as
-/// wide as `tolerance`); corners are intersections of those lines, in raw pixels.
+/// fitted too. Where the plate's thickness shows as a wall of the hole, the edges seen are those of
+/// its back: their shift is taken out (HoleWalls). Each side's line is then its own edge points'
+/// with this geometry as the prior (as wide as `tolerance`); corners are intersections of those
+/// lines, in raw pixels.
 class BoardRefiner {
    public:
     BoardRefiner(const EdgeSampler& edges, const HoleLayout& layout, const CameraModel& camera,
@@ -59,12 +65,16 @@ class BoardRefiner {
     std::vector<SidePoint> measure(const Homography& h, double reach_in_sides, double least_px,
                                    double most_px) const;
     bool fit_board(Homography& h, const std::vector<SidePoint>& points,
-                   const std::vector<bool>& use) const;
+                   const std::vector<bool>& use, const std::vector<double>& wall) const;
+    /// How far into the hole each side's edge lies, beyond what `wall` explains, m; 0 for those
+    /// without points.
+    std::vector<double> side_insets(const Homography& h, const std::vector<SidePoint>& points,
+                                    const std::vector<double>& wall) const;
     /// The common inset of the measured sides, m.
     double fit_inset(const Homography& h, const std::vector<SidePoint>& points,
-                     const std::vector<bool>& use) const;
+                     const std::vector<bool>& use, const std::vector<double>& wall) const;
     std::vector<bool> select_sides(const Homography& h, const std::vector<SidePoint>& points,
-                                   double inset) const;
+                                   double inset, const std::vector<double>& wall) const;
 
     const EdgeSampler& edges_;
     const HoleLayout& layout_;

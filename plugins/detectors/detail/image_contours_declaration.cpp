@@ -32,7 +32,10 @@ longer belong to the raw image and its K.
    still gets its corners in step 5.
 5. **Sub-pixel sides, one board at a time.** Edge points (derivative of a Gaussian along the
    side's normal, parabola through the largest rise) of all hole sides fit one homography,
-   reweighted until it settles, with one common inset of all holes. A side that does not lie where
+   reweighted until it settles, with one common inset of all holes. Seen obliquely, one of two
+   opposite walls of a hole shows, and the dark begins at the back edge: how far that lies inwards follows
+   from the pose and the target's thickness, how much of it the image shows from how narrow the holes look
+   (`model_walls`). A side that does not lie where
    the others put it (0.5 px, or four times the board's usual misfit), or that has hardly an edge,
    is something behind the hole - a kerb, a window - and is replaced by the board's geometry;
    `sides_from_geometry` counts them and their corners' covariances are larger. The other sides
@@ -45,7 +48,7 @@ longer belong to the raw image and its K.
 Corners come row by row from the top left as the image shows the board. Their covariances follow
 from the scatter of the edge points (neighbours counted half), the prior and the homography, plus
 `sigma_floor_px`. Corners of one side are correlated: the joint covariance of all holds that, and
-that a plate's bright thickness, seen obliquely in a hole, may have shifted its sides.
+that a plate's bright thickness, seen obliquely in a hole, may have shifted its sides by more or less than modelled.
 
 Quality of a board: `holes_seen` (as squares), `sides_measured`, `sides_from_geometry`,
 `line_rms_px` (edge points about their lines), `geometry_rms_px` (sides about the board's
@@ -88,6 +91,10 @@ found, the stage saves a picture of squares and groups.)");
     spec.param("min_holes", &Params::min_holes)
         .within(2, 100)
         .doc("holes of a board that must be seen as squares; the others must show their edges");
+    spec.param("model_walls", &Params::model_walls)
+        .doc(
+            "take out the shift of edges where the plate's thickness shows as a bright wall of a "
+            "hole; off: corners are those of the dark that is seen (the letter)");
     spec.param("tolerance", &Params::tolerance)
         .unit("m")
         .within(1e-5, 0.1)

@@ -42,13 +42,14 @@ struct CornerCrossing {
 /// taken below `scatter`^2, the variance of the points about their own lines. A side without
 /// points is as far off the geometry as the others.
 ///
-/// Holes that look smaller than the target's mostly do so because the plate's thickness shows: seen
-/// obliquely, one of two opposite sides is the back edge of a bright wall. That makes the hole
-/// smaller and shifts it as much. So the insets, fitted for both axes, are in doubt as a common
-/// inset and as a common shift. `inset` (m) is what the sides' `measured` were taken from.
+/// Holes that look smaller than the target's, beyond what `wall` (m, HoleWalls) took out, may still
+/// do so because the plate's thickness shows. That makes the hole smaller and shifts it as much. So
+/// the insets that are left, fitted for both axes, are in doubt as a common inset and as a common
+/// shift; and so is a part of the walls, whose brightness the image blurs with the edge. `inset`
+/// (m) is what the sides' `measured` were taken from.
 Eigen::MatrixXd corner_covariance(const HoleLayout& layout, const Homography& h,
                                   const std::vector<MeasuredSide>& sides,
                                   const std::vector<CornerCrossing>& corners, double scatter,
-                                  double inset);
+                                  double inset, const std::vector<double>& wall);
 
 }  // namespace petal

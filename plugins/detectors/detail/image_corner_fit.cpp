@@ -37,6 +37,7 @@ std::vector<CornerFit::SideLine> CornerFit::fit_lines(const std::vector<SidePoin
         double squares = 0.0, counted = 0.0, off_squares = 0.0;
         for (std::size_t s = 0; s < lines.size(); ++s) {
             const double expected = -board.hole_inset * frame[s].px_per_m;
+            const double behind = board.wall[s] * frame[s].px_per_m;
             const double prior_sigma = tolerance_ * frame[s].px_per_m;
             Eigen::Matrix2d normal_matrix =
                 Eigen::Matrix2d::Identity() / (prior_sigma * prior_sigma);
@@ -45,7 +46,7 @@ std::vector<CornerFit::SideLine> CornerFit::fit_lines(const std::vector<SidePoin
             for (const SidePoint& point : points)
                 if (board.side_measured[s] && point.side == s)
                     own.push_back({2.0 * point.t - 1.0,
-                                   side_residual(layout_, h, frame[s], point) - expected});
+                                   side_residual(layout_, h, frame[s], point) + behind - expected});
             const double weight = 1.0 / (kPointsShare * scatter * scatter);
             Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
             for (const auto& [u, r] : own) {
@@ -141,7 +142,7 @@ bool CornerFit::intersect(const std::vector<SideLine>& lines, const std::vector<
     std::vector<MeasuredSide> measured;
     for (const SideLine& line : lines) measured.push_back(line.own);
     board.joint_covariance =
-        corner_covariance(layout_, h, measured, crossings, scatter, board.hole_inset);
+        corner_covariance(layout_, h, measured, crossings, scatter, board.hole_inset, board.wall);
     return board.joint_covariance.allFinite();
 }
 

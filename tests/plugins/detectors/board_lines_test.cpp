@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "detectors/detail/board_line_finder.hpp"
 #include "detectors/planes_ransac.hpp"
 #include "noise.hpp"
 #include "petal/calibration/angles.hpp"
@@ -202,6 +203,25 @@ TEST(BoardLines, PointsOfThePlateTellItsPlane) {
     };
     EXPECT_GT(sigma(by_rim), 0.002) << "the rim's own error is in the covariance";
     EXPECT_LT(sigma(by_plate), 0.0005);
+}
+
+TEST(BoardLines, TooFewPointsOfThePlateTellNothing) {
+    // Whose plane cannot be fitted must not be told as surer than the rim's.
+    Rng rng(9);
+    const HoleGrid grid = HoleGrid::of(load_target("four_square_holes_500mm"));
+    const Eigen::Isometry3d truth = board_pose(0.2, 0.3);
+    const auto rim = board_points(truth, 0.010, rng);
+    const auto found = [&](const std::vector<Eigen::Vector3d>& plate) {
+        Rng same(1);
+        const auto attempt = BoardFinder(grid, {}).find(
+            rim, truth, [&](const Eigen::Isometry3d&) { return plate; }, same, [] {});
+        EXPECT_TRUE(attempt.board) << attempt.miss;
+        return attempt.board.value_or(LidarBoard());
+    };
+    const LidarBoard without = found({}), with_three = found({truth.translation(), rim[0], rim[1]});
+    ASSERT_TRUE(without.covariance && with_three.covariance);
+    EXPECT_EQ(*with_three.covariance, *without.covariance);
+    EXPECT_EQ(with_three.quality.at("plate_points"), 0.0);
 }
 
 TEST(BoardLines, PlainLinesGiveHolesThatAreTooLarge) {

@@ -136,6 +136,27 @@ TEST(ImageContours, ABrightThingBehindAHoleDoesNotBendItsCorners) {
     EXPECT_GT(board.covariance[13](1, 1), 2.0 * board.covariance[14](1, 1));
 }
 
+// The walls of 5 mm are 0.7 px wide here. 0.15 px as for plates without thickness.
+TEST(ImageContours, FindsTheFrontEdgesWhereWallsShowInTheHoles) {
+    const Target target = load_target(kTarget);
+    const auto camera = make_camera(640, 480, 500.0);
+    const auto pose = board_pose(target, {0.05, -0.1, 1.4}, 25.0, -18.0, 4.0);
+    const auto truth = true_corners(target, CameraModel(camera), pose);
+    const auto off = [&](double wall, bool model_walls) {
+        StageHarness stage = detector();
+        stage.set("model_walls", model_walls);
+        stage.give<Images>(
+            "images", Images{{Photo(camera).add(target, pose, 180.0, 1e9, wall).take(0.8, 2.0)}});
+        stage.fire();
+        const auto& found = stage.out<ImageBoards>("boards");
+        return found.boards.size() == 1 ? rms(found.boards[0].corners, truth) : 1e9;
+    };
+    EXPECT_LT(off(0.9, true), 0.15);
+    EXPECT_GT(off(0.9, false), 0.3) << "the bias that the model is there for";
+    // Hardly brighter than what is behind the holes: the front edges are seen as they are.
+    EXPECT_LT(off(0.5, true), 0.15);
+}
+
 TEST(ImageContours, SeveralBoardsFromLeftToRight) {
     const Target target = load_target(kTarget);
     const auto camera = make_camera(960, 480, 500.0);

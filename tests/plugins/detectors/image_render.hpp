@@ -76,9 +76,10 @@ class Photo {
     }
 
     /// `bright_below`: holes show a bright thing (0.97 of the plate) at y (m) beyond this in
-    /// hole 2.
+    /// hole 2. `wall`: brightness of the holes' walls over the plate's; 0: a plate without
+    /// thickness.
     Photo& add(const Target& target, const Eigen::Isometry3d& pose, double plate = 180.0,
-               double bright_below = 1e9) {
+               double bright_below = 1e9, double wall = 0.0) {
         constexpr int kRays = 8;
         const Eigen::Isometry3d to_board = pose.inverse();
         const Eigen::Vector3d eye = to_board.translation();
@@ -89,7 +90,7 @@ class Photo {
                 for (int k = 0; k < kRays * kRays; ++k) {
                     const Eigen::Vector2d p(u + (k % kRays + 0.5) / kRays - 0.5,
                                             v + (k / kRays + 0.5) / kRays - 0.5);
-                    sum += plate_at(target, to_board, eye, p, plate, bright_below,
+                    sum += plate_at(target, to_board, eye, p, plate, bright_below, wall,
                                     pixels_.at<double>(v, u));
                 }
                 pixels_.at<double>(v, u) = sum / (kRays * kRays);
@@ -123,16 +124,19 @@ class Photo {
    private:
     double plate_at(const Target& target, const Eigen::Isometry3d& to_board,
                     const Eigen::Vector3d& eye, const Eigen::Vector2d& pixel, double plate,
-                    double bright_below, double behind) const {
+                    double bright_below, double wall, double behind) const {
         const auto ray = model_.unproject(pixel);
         if (!ray) return behind;
         const Eigen::Vector3d direction = to_board.linear() * *ray;
         const double range = -eye.z() / direction.z();
         const Eigen::Vector3d hit = eye + range * direction;
         if (range <= 0.0 || !in_polygon(target.outline, hit.x(), hit.y())) return behind;
+        const Eigen::Vector3d back = hit + (target.thickness / direction.z()) * direction;
         for (std::size_t h = 0; h < target.holes.size(); ++h)
             if (in_polygon(target.holes[h], hit.x(), hit.y()))
-                return h == 2 && hit.y() > bright_below ? 0.97 * plate : behind;
+                return wall > 0.0 && !in_polygon(target.holes[h], back.x(), back.y()) ? wall * plate
+                       : h == 2 && hit.y() > bright_below                             ? 0.97 * plate
+                                                                                      : behind;
         return plate;
     }
 

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "detectors/detail/image_hole_walls.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace petal {
+namespace {
+
+constexpr double kLeastWall = 2e-4;  ///< m: less shifts no edge that one could measure
+
+/// The camera's centre in the board frame: z < 0. None for a homography that no pose has.
+std::optional<Eigen::Vector3d> camera_centre(const Homography& board_to_ideal,
+                                             const mrpt::img::TCamera& camera) {
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+    K(0, 0) = camera.fx();
+    K(1, 1) = camera.fy();
+    K(0, 2) = camera.cx();
+    K(1, 2) = camera.cy();
+    Eigen::Matrix3d m = K.inverse() * board_to_ideal;
+    const double scale = std::sqrt(m.col(0).norm() * m.col(1).norm());
+    if (!(scale > 0.0)) return std::nullopt;
+    m /= m(2, 2) > 0.0 ? scale : -scale;
+    const Eigen::Vector3d x = m.col(0).normalized();
+    const Eigen::Vector3d z = x.cross(m.col(1)).normalized();
+    Eigen::Matrix3d R;
+    R << x, z.cross(x), z;
+    const Eigen::Vector3d centre = -R.transpose() * m.col(2);
+    if (!centre.allFinite() || centre.z() >= 0.0) return std::nullopt;
+    return centre;
+}
+
+double median_of(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+int HoleWalls::axis(std::size_t side) const {
+    const Eigen::Vector2d along = layout_.sides()[side].to - layout_.sides()[side].from;
+    return std::abs(along.x()) > std::abs(along.y()) ? 1 : 0;
+}
+
+std::vector<double> HoleWalls::shown(const Homography& board_to_ideal) const {
+    std::vector<double> walls(layout_.sides().size(), 0.0);
+    const double thickness = layout_.target().thickness;
+    const auto centre = camera_centre(board_to_ideal, camera_);
+    if (!centre || thickness <= 0.0) return walls;
+    for (std::size_t s = 0; s < walls.size(); ++s) {
+        const auto& side = layout_.sides()[s];
+        const Eigen::Vector2d along = (side.to - side.from).normalized();
+        const Eigen::Vector2d outwards(along.y(), -along.x());
+        const Eigen::Vector2d towards = centre->head<2>() - 0.5 * (side.from + side.to);
+        walls[s] = std::max(0.0, -towards.dot(outwards) * thickness / (thickness - centre->z()));
+    }
+    return walls;
+}
+
+std::array<double, 2> HoleWalls::share(const std::vector<double>& shown,
+                                       const std::array<double, 2>& explained,
+                                       const std::vector<double>& insets,
+                                       const std::vector<bool>& measured) const {
+    std::array<double, 2> shares = explained;
+    for (int axis_index = 0; axis_index < 2; ++axis_index) {
+        std::vector<double> inset, wall;
+        for (std::size_t s = 0; s < shown.size(); ++s) {
+            if (!measured[s] || axis(s) != axis_index) continue;
+            inset.push_back(insets[s]);
+            wall.push_back(shown[s]);
+        }
+        double mean = 0.0;
+        for (const double w : wall) mean += w / static_cast<double>(wall.size());
+        auto& share = shares[static_cast<std::size_t>(axis_index)];
+        // Half of the sides show no wall, but the fit of the whole board gives them half of it.
+        if (2.0 * mean < kLeastWall)
+            share = 0.0;
+        else
+            share = std::clamp(share + median_of(inset) / mean, 0.0, 1.0);
+    }
+    return shares;
+}
+
+}  // namespace petal
