@@ -46,9 +46,10 @@ The largest motion of the board's middle or of a corner between two splits is to
 of comparisons, so that a still board is taken for a moving one about once in 400 captures, however many splits there are. The longest run
 of splits among which nothing moved is told: `still_from_s`, `still_until_s`.
 
-**Images.** The corners of each image board are found again, by their gradients, in the first, the middle and the last image of
-its camera; the median shift of a board's corners is told in pixels and, by the board's known size, in mm. The same limits
-apply.
+**Images.** Each image board is found again, up to 40 px away, in the first, the middle and the last image of its camera, as a whole
+by correlation and then its corners by their gradients; the median shift of the corners is told in pixels and, by the board's known
+size, in mm. The same limits apply. An image in which fewer than 4 corners are found again is a finding (weak) too: the board moved
+farther, turned, or something hides it.
 
 | name | what |
 |---|---|
@@ -161,14 +162,28 @@ void StillnessMetric::look_at_images(Run& run, Metrics& metrics) {
             continue;
         }
         const double radius = corner_radius(targets_.find(board.target, run).corners());
-        const auto shifts = image_shifts(spread, board, radius);
+        const CameraImage* reference = board_image(*images, board.camera);
+        const ImageShifts found =
+            reference ? image_shifts(spread, *reference, board, radius) : ImageShifts();
+        const std::string who =
+            "image board " + std::to_string(i + 1) + " of camera '" + board.camera + "'";
+        for (const ImageShifts::Lost& lost : found.lost)
+            metrics.findings.push_back(
+                {Level::weak,
+                 scene_name(run.frame()) + ": " + who +
+                     printed(": too few corners (%zu of %zu) are found again in the ", lost.corners,
+                             board.corners.size()) +
+                     lost.image + printed(" image, %.1f s", lost.seconds) +
+                     " from that which it was measured in; it moved, the camera did, or something "
+                     "hides it: look at that image, fasten both and record again"});
+        const auto& shifts = found.shifts;
         const auto largest =
             std::max_element(shifts.begin(), shifts.end(),
                              [](const auto& a, const auto& b) { return a.metres < b.metres; });
         if (largest == shifts.end()) {
-            run.note({"image board " + std::to_string(i + 1) + " in the other images of camera '" +
-                          board.camera + "'",
-                      "fewer than 4 of its corners are found again", "", "look at the images"});
+            if (found.lost.empty())
+                run.note({who + " in the other images",
+                          "fewer than 4 of its corners are found again", "", "look at the images"});
             continue;
         }
         const std::string name = "image_board_" + std::to_string(i + 1);
@@ -180,8 +195,7 @@ void StillnessMetric::look_at_images(Run& run, Metrics& metrics) {
             continue;
         metrics.findings.push_back(
             {Level::weak,
-             scene_name(run.frame()) + ": image board " + std::to_string(i + 1) + " of camera '" +
-                 board.camera + "' moved " +
+             scene_name(run.frame()) + ": " + who + " moved " +
                  printed("%.1f mm (sigma %.1f), %.2f px, between the ", largest->metres * 1e3,
                          largest->sigma_metres * 1e3, largest->px.norm()) +
                  largest->from + " and the " + largest->to +

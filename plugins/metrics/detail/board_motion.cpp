@@ -194,8 +194,10 @@ std::optional<BoardMotion> board_motion(const std::vector<std::optional<SplitPos
                 }
         }
     for (std::size_t begin = 0; begin < poses.size(); ++begin) {
+        if (!poses[begin]) continue;
         std::size_t end = begin + 1;
         const auto still = [&](std::size_t next) {
+            if (!poses[next]) return false;  // nobody knows
             for (std::size_t k = begin; k < next; ++k)
                 if (moves[k][next]) return false;
             return true;

@@ -50,7 +50,8 @@ struct BoardMotion {
     double sigma = 0.0;   ///< m, along it
     std::size_t from = 0, to = 0;  ///< splits
     bool moved = false;            ///< more than chance, and more than the limit
-    /// The longest run of splits without motion among them: first, and one behind the last.
+    /// The longest run of splits, each with a pose, without motion among them: first, and one
+    /// behind the last.
     std::size_t still_begin = 0, still_end = 0;
 };
 

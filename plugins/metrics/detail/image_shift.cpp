@@ -8,13 +8,17 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 namespace petal {
 namespace {
 
 constexpr double kFloorPx = 0.02;    // what the same corner differs by in two images of one scene
 constexpr double kMostMovePx = 3.0;  // cornerSubPix that went farther has found something else
-constexpr std::size_t kFewestCorners = 4;
+constexpr int kSearchPx = 40;        // how far a board is searched for as a whole, each way
+constexpr int kMarginPx = 8;         // around its corners: their outer sides belong to them
+constexpr double kLeastAlike = 0.7;  // correlation of the board in two images; one hole off: 0.5
+constexpr double kNudgePx = 0.37;    // other start of a corner that did not move at all
 
 double seconds_between(const CameraImage& a, const CameraImage& b) {
     return mrpt::Clock::toDouble(b.stamp) - mrpt::Clock::toDouble(a.stamp);
@@ -29,35 +33,87 @@ double closest(const std::vector<Eigen::Vector2d>& corners) {
     return least;
 }
 
-/// The corners in this image; NaN where they are not found.
-std::vector<Eigen::Vector2d> find_again(const CameraImage& image,
-                                        const std::vector<Eigen::Vector2d>& corners) {
+cv::Mat grey_of(const CameraImage& image) {
     const cv::Mat pixels = image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    if (pixels.channels() != 3) return pixels;
     cv::Mat grey;
-    if (pixels.channels() == 3) {
-        cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);
-    } else {
-        grey = pixels;
+    cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);
+    return grey;
+}
+
+/// Where the board lies in `image` against `reference`, whole px: best normalised correlation of
+/// its picture. None where nothing is alike, or the best lies at the end of the search.
+std::optional<Eigen::Vector2d> whole_shift(const cv::Mat& reference, const cv::Mat& image,
+                                           const std::vector<Eigen::Vector2d>& corners) {
+    if (reference.size() != image.size() || reference.type() != image.type()) return std::nullopt;
+    std::vector<cv::Point2f> points;
+    for (const Eigen::Vector2d& p : corners)
+        if (p.allFinite())
+            points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+    if (points.empty()) return std::nullopt;
+    const auto grown = [&](const cv::Rect& box, int by) {
+        return cv::Rect(box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by) &
+               cv::Rect(0, 0, image.cols, image.rows);
+    };
+    const cv::Rect board = grown(cv::boundingRect(points), kMarginPx);
+    if (board.empty()) return std::nullopt;
+    const cv::Rect search = grown(board, kSearchPx);
+    cv::Mat alike;
+    cv::matchTemplate(image(search), reference(board), alike, cv::TM_CCOEFF_NORMED);
+    double most = 0.0;
+    cv::Point at;
+    cv::minMaxLoc(alike, nullptr, &most, nullptr, &at);
+    // Without contrast the correlation is infinite or no number.
+    if (!(most >= kLeastAlike && most < 1.01)) return std::nullopt;
+    const cv::Point moved = at + search.tl() - board.tl();
+    if (std::max(std::abs(moved.x), std::abs(moved.y)) >= kSearchPx) return std::nullopt;
+    return Eigen::Vector2d(moved.x, moved.y);
+}
+
+/// A corner refined from `start`; none where cornerSubPix gives the start back, as it does where
+/// there is no gradient and where it left its window.
+std::optional<Eigen::Vector2d> refined(const cv::Mat& grey, const Eigen::Vector2d& start,
+                                       int half) {
+    // A corner may lie exactly at its start: then another start leads there too.
+    for (const double nudge : {0.0, kNudgePx}) {
+        const cv::Point2f from(static_cast<float>(start.x() + nudge),
+                               static_cast<float>(start.y() + nudge));
+        std::vector<cv::Point2f> one{from};
+        cv::cornerSubPix(grey, one, {half, half}, {-1, -1},
+                         {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-3});
+        if (one[0] == from) continue;
+        const Eigen::Vector2d at(static_cast<double>(one[0].x), static_cast<double>(one[0].y));
+        if ((at - start).norm() > kMostMovePx) return std::nullopt;
+        return at;
     }
+    return std::nullopt;
+}
+
+/// The corners in this image; NaN where they are not found.
+std::vector<Eigen::Vector2d> find_again(const cv::Mat& reference, const CameraImage& image,
+                                        const std::vector<Eigen::Vector2d>& corners) {
     const Eigen::Vector2d nowhere =
         Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
     std::vector<Eigen::Vector2d> found(corners.size(), nowhere);
+    const cv::Mat grey = grey_of(image);
+    const auto shift = whole_shift(reference, grey, corners);
+    if (!shift) return found;
     // The window must see one corner alone.
     const int half = static_cast<int>(std::clamp(0.3 * closest(corners), 2.0, 7.0));
+    const double border = half + 2.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Eigen::Vector2d& corner = corners[i];
-        const double border = half + 2.0;
-        if (!corner.allFinite() || corner.minCoeff() < border ||
-            corner.x() > grey.cols - 1 - border || corner.y() > grey.rows - 1 - border)
+        const Eigen::Vector2d start = corners[i] + *shift;
+        if (!start.allFinite() || start.minCoeff() < border || start.x() > grey.cols - 1 - border ||
+            start.y() > grey.rows - 1 - border)
             continue;
-        std::vector<cv::Point2f> one{
-            {static_cast<float>(corner.x()), static_cast<float>(corner.y())}};
-        cv::cornerSubPix(grey, one, {half, half}, {-1, -1},
-                         {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-3});
-        const Eigen::Vector2d at(static_cast<double>(one[0].x), static_cast<double>(one[0].y));
-        if ((at - corner).norm() <= kMostMovePx) found[i] = at;
+        if (const auto corner = refined(grey, start, half)) found[i] = *corner;
     }
     return found;
+}
+
+std::size_t finite_count(const std::vector<Eigen::Vector2d>& points) {
+    return static_cast<std::size_t>(std::count_if(
+        points.begin(), points.end(), [](const Eigen::Vector2d& p) { return p.allFinite(); }));
 }
 
 double median(std::vector<double> values) {
@@ -80,12 +136,31 @@ std::vector<const CameraImage*> spread_images(const Images& images, const std::s
     return all;
 }
 
-std::vector<ImageShift> image_shifts(const std::vector<const CameraImage*>& images,
-                                     const ImageBoard& board, double radius_m) {
+const CameraImage* board_image(const Images& images, const std::string& camera) {
+    for (const CameraImage& image : images.cameras)
+        if (image.label == camera && !image.image.isEmpty()) return &image;
+    return nullptr;
+}
+
+ImageShifts image_shifts(const std::vector<const CameraImage*>& images,
+                         const CameraImage& reference, const ImageBoard& board, double radius_m) {
+    ImageShifts result;
+    const cv::Mat seen = grey_of(reference);
+    if (finite_count(find_again(seen, reference, board.corners)) < kFewestShiftCorners)
+        return result;
     std::vector<std::vector<Eigen::Vector2d>> found;
-    for (const CameraImage* image : images) found.push_back(find_again(*image, board.corners));
+    const auto name = [&](std::size_t i) -> std::string {
+        return i == 0 ? "first" : i + 1 == images.size() ? "last" : "middle";
+    };
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        found.push_back(find_again(seen, *images[i], board.corners));
+        const std::size_t count = finite_count(found.back());
+        if (count < kFewestShiftCorners)
+            result.lost.push_back(
+                {name(i), std::abs(seconds_between(reference, *images[i])), count});
+    }
     const double radius_px = corner_radius(board.corners);
-    std::vector<ImageShift> shifts;
+    std::vector<ImageShift>& shifts = result.shifts;
     for (std::size_t a = 0; a < images.size(); ++a)
         for (std::size_t b = a + 1; b < images.size(); ++b) {
             std::vector<double> u, v, off;
@@ -95,10 +170,10 @@ std::vector<ImageShift> image_shifts(const std::vector<const CameraImage*>& imag
                 u.push_back(moved.x());
                 v.push_back(moved.y());
             }
-            if (u.size() < kFewestCorners || !(radius_px > 0.0)) continue;
+            if (u.size() < kFewestShiftCorners || !(radius_px > 0.0)) continue;
             ImageShift shift;
-            shift.from = a == 0 ? "first" : "middle";
-            shift.to = b + 1 == images.size() ? "last" : "middle";
+            shift.from = name(a);
+            shift.to = name(b);
             shift.seconds = seconds_between(*images[a], *images[b]);
             shift.px = {median(u), median(v)};
             for (std::size_t i = 0; i < u.size(); ++i)
@@ -112,7 +187,7 @@ std::vector<ImageShift> image_shifts(const std::vector<const CameraImage*>& imag
             shift.corners = u.size();
             shifts.push_back(shift);
         }
-    return shifts;
+    return result;
 }
 
 double corner_radius(const std::vector<Eigen::Vector2d>& points) {

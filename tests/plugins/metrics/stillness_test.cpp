@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "metrics/detail/board_motion.hpp"
 #include "petal/testing/stage_harness.hpp"
 #include "plugins/metrics/plate_world.hpp"
 
@@ -77,6 +79,18 @@ TEST(Stillness, TheStillPartIsTold) {
                 HasSubstr("no motion is seen in 0.0-6.0 s"));
 }
 
+TEST(Stillness, ASplitWithoutAPoseIsNotCalledStill) {
+    SplitPose pose;
+    pose.covariance = 1e-8 * Matrix6d::Identity();  // 0.1 mm
+    pose.sideways = true;
+    const auto motion =
+        board_motion({pose, pose, std::nullopt, pose, pose, pose}, 0.25, 0.25, 3.0, 0.001);
+    ASSERT_TRUE(motion);
+    EXPECT_FALSE(motion->moved);
+    EXPECT_EQ(motion->still_begin, 3U);
+    EXPECT_EQ(motion->still_end, 6U);
+}
+
 TEST(Stillness, ShortCapturesAndCloudsWithoutTimesAreNoted) {
     PlateWorld world;
     world.seconds = 3.0;
@@ -140,12 +154,29 @@ Metrics of_pictures(double moved) {
 
 TEST(Stillness, ImagesOfTheFirstAndLastMomentAreCompared) {
     // 400 px are 1 m: 2 px are 5 mm.
-    const Metrics moved = of_pictures(2.0);
-    ASSERT_EQ(moved.findings.size(), 1U);
-    EXPECT_THAT(moved.findings[0].reason,
-                AllOf(HasSubstr("image board 1 of camera 'CAMERA' moved 5.0 mm"),
-                      HasSubstr("the first and the last image, 10.0 s apart")));
+    for (const double px : {2.0, 5.0, 10.0, 30.0}) {
+        const Metrics moved = of_pictures(px);
+        ASSERT_EQ(moved.findings.size(), 1U) << px;
+        EXPECT_EQ(moved.findings[0].level, Level::weak);
+        char length[32];
+        std::snprintf(length, sizeof length, "moved %.1f mm", 2.5 * px);
+        EXPECT_THAT(moved.findings[0].reason,
+                    AllOf(HasSubstr("image board 1 of camera 'CAMERA'"), HasSubstr(length),
+                          HasSubstr("the first and the last image, 10.0 s apart")));
+    }
     EXPECT_TRUE(of_pictures(0.0).findings.empty());
+}
+
+TEST(Stillness, ABoardThatIsNotFoundAgainDidNotStandStill) {
+    for (const double px : {60.0, 500.0}) {  // beyond the search; out of the picture
+        const Metrics gone = of_pictures(px);
+        ASSERT_EQ(gone.findings.size(), 1U) << px;
+        EXPECT_EQ(gone.findings[0].level, Level::weak);
+        EXPECT_THAT(gone.findings[0].reason,
+                    AllOf(HasSubstr("hall: image board 1 of camera 'CAMERA'"),
+                          HasSubstr("too few corners (0 of 16) are found again in the last image"),
+                          HasSubstr("5.0 s")));
+    }
 }
 
 }  // namespace
