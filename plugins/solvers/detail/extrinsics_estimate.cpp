@@ -125,21 +125,6 @@ CameraExtrinsics estimate(const SolveInput& input, const ReprojectionProblem& pr
     return camera;
 }
 
-Matrix6d column_covariance(const CameraExtrinsics& camera) {
-    Matrix6d map = Matrix6d::Identity();
-    map.topRightCorner<3, 3>() = -skew(camera.T_camera_lidar.translation());
-    return map * camera.covariance * map.transpose();
-}
-
-PrincipalSigma principal_sigma(const CameraExtrinsics& camera) {
-    const Matrix6d column = column_covariance(camera);
-    const auto largest = [](const Eigen::Matrix3d& block) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block, Eigen::EigenvaluesOnly);
-        return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
-    };
-    return {largest(column.topLeftCorner<3, 3>()), largest(column.bottomRightCorner<3, 3>())};
-}
-
 std::string describe_weakest(const Matrix6d& covariance, double rotation_per_m) {
     Vector6d scale = Vector6d::Ones();
     scale.tail<3>().setConstant(1.0 / rotation_per_m);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "petal/calibration/extrinsics.hpp"
+#include "petal/calibration/extrinsics_sigma.hpp"
 #include "solvers/detail/reprojection_problem.hpp"
 #include "solvers/detail/solve_input.hpp"
 
@@ -26,16 +27,6 @@ struct UncertaintyParams {
 /// \throws Error where a pair does not project at `pose`.
 CameraExtrinsics estimate(const SolveInput& input, const ReprojectionProblem& problem,
                           const Eigen::Isometry3d& pose, const UncertaintyParams& params);
-
-/// The principal 1-sigma of an estimate: of the fourth column of T (m), of the rotation (rad).
-struct PrincipalSigma {
-    double translation = 0.0;
-    double rotation = 0.0;
-};
-PrincipalSigma principal_sigma(const CameraExtrinsics& camera);
-
-/// The covariance of (t, phi), t the fourth column of T: t' = t + phi x t + rho.
-Matrix6d column_covariance(const CameraExtrinsics& camera);
 
 /// The largest principal direction of `covariance` of (t, phi) in words, 1 m weighing as
 /// `rotation_per_m` rad: "tilting about the camera's x axis (5.9 deg) together with a shift along

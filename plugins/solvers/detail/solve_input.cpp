@@ -39,11 +39,6 @@ bool worse(const OrderDecision& a, const OrderDecision& b) {
 
 }  // namespace
 
-bool same_projection(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b) {
-    return a.ncols == b.ncols && a.nrows == b.nrows && a.fx() == b.fx() && a.fy() == b.fy() &&
-           a.cx() == b.cx() && a.cy() == b.cy() && a.distortion == b.distortion && a.dist == b.dist;
-}
-
 CameraModel camera_model(const mrpt::img::TCamera& camera, bool use_distortion) {
     mrpt::img::TCamera used = camera;
     if (!use_distortion) {

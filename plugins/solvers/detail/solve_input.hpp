@@ -12,6 +12,7 @@
 
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/correspondences.hpp"
+#include "petal/calibration/same_projection.hpp"
 #include "petal/run.hpp"
 
 namespace petal {
@@ -36,9 +37,6 @@ struct SolveInput {
 
 /// The model to project with: without distortion where the pixels are rectified already.
 CameraModel camera_model(const mrpt::img::TCamera& camera, bool use_distortion);
-
-/// Whether two cameras project alike, to the bit.
-bool same_projection(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b);
 
 /// One input for each pair of labels, in the order of their first appearance; scenes in the order
 /// of CameraPairs::scene. A camera without any pair is told with the LiDAR label that it came
