@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "metrics/detail/agreement_verdict.hpp"
 #include "metrics/detail/point_to_edge.hpp"
 #include "metrics/detail/pose_agreement.hpp"
 #include "metrics/detail/scene_name.hpp"
@@ -18,6 +19,7 @@
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/metrics.hpp"
+#include "petal/calibration/same_projection.hpp"
 #include "petal/error.hpp"
 #include "petal/printed.hpp"
 
@@ -131,15 +133,10 @@ class Holding {
             value("point_to_edge_count", static_cast<double>(to_edge_.size()), "1");
             value("point_to_edge_median_px", median(to_edge_), "px");
         }
-        const bool apart = drift.sigmas > params_.sigmas && px > params_.max_px;
-        if (apart)
-            lower(
-                Level::weak,
-                printed("the new data do not agree with the result: boards lie %.2f px (RMS) from "
-                        "where it puts them, %.1f sigma of the result and the data together; as "
-                        "if turned by %.2f deg; a sensor has moved, or the data are of another "
-                        "rig: calibrate anew",
-                        px, drift.sigmas, drift.drift.tail<3>().norm() * kDegrees));
+        if (drift.left_freedoms > 0) value("contradiction_sigmas", drift.left_sigmas, "1");
+        std::vector<std::string> reasons;
+        const Level level = judge_agreement(camera_, px, drift, params_, reasons);
+        for (const std::string& reason : reasons) lower(level, reason);
         camera_.chi2 = drift.chi2;
         camera_.degrees_of_freedom = 6;
         extrinsics.cameras.push_back(camera_);
@@ -147,16 +144,32 @@ class Holding {
     void name_camera() { several_ = true; }
 
    private:
+    /// The camera of the first scene, with the focal length that the result estimated.
+    void take_camera(const BoardScene& scene, const CameraInfo& info) {
+        if (model_) {
+            if (!same_projection(given_, info.camera))
+                throw Error("camera '" + camera_.camera + "' has other intrinsics in scene '" +
+                            scene_name(scene.frame) +
+                            "' than before; give every scene of a camera the same intrinsics, or "
+                            "verify the scenes apart");
+            return;
+        }
+        given_ = camera_.model = info.camera;
+        if (camera_.diagnosis && camera_.diagnosis->focal && camera_.diagnosis->focal->estimated) {
+            const double scale = camera_.diagnosis->focal->scale;
+            camera_.model.fx(scale * camera_.model.fx());
+            camera_.model.fy(scale * camera_.model.fy());
+        }
+        model_.emplace(camera_.model);
+        drift_.emplace(*model_, camera_.T_camera_lidar,
+                       MeasurementNoise{params_.lidar_sigma, params_.board_redundancy});
+    }
+
     void hold_scene(const BoardScene& scene, const CameraInfo& info, Run& run) {
         lidar_boards_ += scene.lidar->boards.size();
         for (const ImageBoard& board : scene.image->boards)
             image_boards_ += board.camera == info.label ? 1U : 0U;
-        if (!model_) {
-            model_.emplace(info.camera);
-            camera_.model = info.camera;
-            drift_.emplace(*model_, camera_.T_camera_lidar,
-                           MeasurementNoise{params_.lidar_sigma, params_.board_redundancy});
-        }
+        take_camera(scene, info);
         CameraPairs pairs;
         pairs.scene = scene.frame.number;
         pairs.scene_name = scene.frame.name;
@@ -195,6 +208,7 @@ class Holding {
     }
 
     CameraExtrinsics camera_;
+    mrpt::img::TCamera given_;  ///< of the first scene
     const AgreementParams& params_;
     TargetsByName& targets_;
     std::optional<CameraModel> model_;
@@ -221,6 +235,7 @@ nothing to compare, which is told as not usable.
 | agreement.point_to_edge_median_px, point_to_edge_count | of the LiDAR's margin points beside the sides of holes to the same sides in the image (wire `cloud`) |
 | agreement.drift_sigmas | how improbable the misses are, by the covariances of the result and of the boards together, as sigmas of a normal distribution |
 | agreement.drift_chi2 | the same as a chi-square of 6 degrees of freedom |
+| agreement.contradiction_sigmas | how improbable it is that the boards differ so much from each other beside a common drift, as sigmas (two boards or more) |
 | agreement.drift_rotation_deg | the rotation by which the boards seem to have drifted, as far as they tell |
 
 With several cameras the names begin with `agreement.CAMERA.`. The drift xi (T_now = Exp(xi) T_result) is that of weighted least squares over all boards,
@@ -228,10 +243,14 @@ b = A xi with A = sum J' S^-1 J; S is a board's image covariance plus its pose c
 scaled down where the boards do not fit each other. Corners without a joint covariance count `board_redundancy` times less; a
 LiDAR board without a covariance gets `lidar_sigma`.
 
-**Verdict.** weak: more than `sigmas` and more than `max_px`. not_usable: nothing to compare. Else usable: the data agree, which is no better than
-the data and the result are sure; both figures are told. The extrinsics go out unchanged, with their new residuals.
+A board counts as the 6 numbers of its motion, however many corners it has.
 
-**Errors**: data of another camera or LiDAR than the result's.)");
+**Verdict.** At best that of the given result; weak where the result's largest 1 sigma is above `usable_sigma` or `usable_sigma_deg`. weak too
+where boards miss by more than `max_px` (RMS), with the reason: a drift of more than `sigmas`; boards that contradict each other (what a common drift leaves is
+beyond the 99.9 % point of its chi-square, 6 degrees of freedom a board less 6); or neither, so that the data agree only because they or the result
+are vague. not_usable: nothing to compare. Else usable. The extrinsics go out unchanged, with their new residuals. A focal length that the result estimated (`focal`) is applied.
+
+**Errors**: data of another camera or LiDAR than the result's; a camera with other intrinsics in a later scene.)");
     s.gathers<Extrinsics>("known", "the extrinsics to hold");
     s.gathers<LidarBoards>("lidar", "boards of the new scenes");
     s.gathers<ImageBoards>("image", "the same boards in the images");
@@ -247,6 +266,14 @@ the data and the result are sure; both figures are told. The extrinsics go out u
         .unit("px")
         .within(0.0, 1000.0)
         .doc("and beyond this reprojection RMS");
+    s.param("usable_sigma", &Params::usable_sigma)
+        .unit("m")
+        .within(0.0, 1000.0)
+        .doc("largest 1 sigma of the result's translation, to be usable");
+    s.param("usable_sigma_deg", &Params::usable_sigma_deg)
+        .unit("deg")
+        .within(0.0, 360.0)
+        .doc("largest 1 sigma of the result's rotation, to be usable");
     s.param("reach", &Params::reach)
         .unit("1")
         .within(0.1, 10.0)
@@ -271,13 +298,16 @@ void AgreementMetric::finish(Run& run) {
     Correspondences correspondences;
     Metrics metrics;
     Extrinsics known;
-    for (const auto& packet : run.all<Extrinsics>("known"))
+    for (const auto& packet : run.all<Extrinsics>("known")) {
+        extrinsics.level =
+            std::max(extrinsics.level, judge_known(*packet.value, extrinsics.reasons));
         for (const CameraExtrinsics& camera : packet->cameras) {
             if (!camera.T_camera_lidar.matrix().allFinite() || !camera.covariance.allFinite())
                 throw Error("the extrinsics of camera '" + camera.camera +
                             "' are not finite; give a result that was solved");
             known.cameras.push_back(camera);
         }
+    }
     check_labels(known, scenes);
     if (known.cameras.empty()) {
         run.note(

@@ -17,6 +17,8 @@ namespace petal {
 struct AgreementParams {
     double sigmas = 3.0;
     double max_px = 1.0;
+    double usable_sigma = 0.005;
+    double usable_sigma_deg = 0.06;
     double reach = 1.5;
     double lidar_sigma = 0.005;
     double board_redundancy = 4.0;

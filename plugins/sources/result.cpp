@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -73,6 +74,24 @@ Matrix6d covariance_of(const JsonValue& value) {
     return symmetric;
 }
 
+/// What a later run needs of the diagnosis: the intrinsics that the pose belongs to. None where the
+/// focal length was not estimated.
+std::optional<Diagnosis> diagnosis_of(const JsonValue& entry, const Matrix6d& covariance) {
+    const auto told = entry.find("focal");
+    if (!told || !told->is_object() || !told->at("estimated").boolean()) return std::nullopt;
+    Diagnosis::FocalScale focal;
+    focal.estimated = true;
+    focal.scale = told->at("scale").number();
+    if (!(focal.scale > 0.0)) told->at("scale").fail("must be positive");
+    focal.sigma = told->at("sigma").number();
+    Diagnosis diagnosis;
+    diagnosis.focal = focal;
+    const auto considered = entry.find("considered");
+    diagnosis.covariance_considered =
+        considered ? covariance_of(considered->at("covariance")) : covariance;
+    return diagnosis;
+}
+
 Level level_of(const JsonValue& value) {
     const std::string name = value.choice({"usable", "weak", "not_usable"});
     if (name == "usable") return Level::usable;
@@ -87,6 +106,8 @@ Extrinsics read_result(const std::filesystem::path& file) {
         root.fail("has no 'verdict' or no 'extrinsics': it is no result.json of a calibration");
     Extrinsics extrinsics;
     extrinsics.level = level_of(root.at("verdict"));
+    if (const auto reasons = root.find("reasons"))
+        for (const JsonValue& reason : reasons->list()) extrinsics.reasons.push_back(reason.text());
     const JsonValue list = root.at("extrinsics");
     if (!list.is_list()) list.fail("must be a list of cameras");
     const auto cameras = list.list();
@@ -111,6 +132,7 @@ Extrinsics read_result(const std::filesystem::path& file) {
             camera.sigma_rotation = sigma->vector3() / kDegrees;
         if (const auto weakest = entry.find("weakest_direction"))
             if (weakest->is_text()) camera.weakest_direction = weakest->text();
+        camera.diagnosis = diagnosis_of(entry, camera.covariance);
         camera.order.by = DecidedBy::given;
         camera.order.reason = "the extrinsics were given";
         extrinsics.cameras.push_back(std::move(camera));
@@ -121,8 +143,8 @@ Extrinsics read_result(const std::filesystem::path& file) {
 void ResultSource::describe(Spec<Params>& spec) {
     spec.summary("Reads the extrinsics of an earlier run from its result.json.");
     spec.doc(
-        R"(Labels of camera and LiDAR, `T_camera_lidar`, its covariance and the verdict are read; residuals and intrinsics are not in
-the file. It is one frame. Who reads it beside the scenes of another source gathers it: `metric.agreement` holds it against
+        R"(Labels of camera and LiDAR, `T_camera_lidar`, its covariance, the verdict and its reasons are read, and a focal length that was
+estimated with the pose (`focal`: a factor on that of the data); residuals and intrinsics are not in the file. It is one frame. Who reads it beside the scenes of another source gathers it: `metric.agreement` holds it against
 new data, as `petal verify` does.
 
 Refused, with file, line and key: what is no result.json, a result without extrinsics, a matrix that is no rigid motion, a

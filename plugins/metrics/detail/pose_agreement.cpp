@@ -144,8 +144,14 @@ bool DriftSum::add(const PosedMatch& match, const LidarBoard& lidar, const Image
     if (!weighed.allFinite()) return false;
     information_ += by_drift.transpose() * ldlt.solve(by_drift);
     right_ += by_drift.transpose() * weighed;
-    chi2_ += error.dot(weighed);
-    numbers_ += static_cast<double>(n) / (joint ? 1.0 : noise_.board_redundancy);
+    // What a motion of the board makes of the misses: 6 numbers, however many corners it has.
+    const Matrix6d of_motion = by_board.transpose() * ldlt.solve(by_board);
+    const Vector6d pull = by_board.transpose() * weighed;
+    const Vector6d unit = of_motion.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Matrix6d in_units = unit.asDiagonal() * of_motion * unit.asDiagonal();
+    const Vector6d pull_in_units = unit.cwiseProduct(pull);
+    chi2_ += std::max(0.0, pull_in_units.dot(in_units.ldlt().solve(pull_in_units)));
+    ++boards_;
     for (Eigen::Index i = 0; i < n; i += 2) errors_.emplace_back(error.segment<2>(i));
     return true;
 }
@@ -158,8 +164,12 @@ DriftSum::Result DriftSum::result(const Matrix6d& covariance) const {
     Matrix6d information = information_;
     information.diagonal() += prior;
     result.drift = information.ldlt().solve(right_);
-    const double left = std::max(0.0, chi2_ - right_.dot(result.drift));
-    result.variance_scale = std::max(1.0, left / std::max(1.0, numbers_ - 6.0));
+    result.left_chi2 = std::max(0.0, chi2_ - right_.dot(result.drift));
+    result.left_freedoms = 6 * (boards_ - 1);
+    if (result.left_freedoms > 0) {
+        result.variance_scale = std::max(1.0, result.left_chi2 / result.left_freedoms);
+        result.left_sigmas = deviate_of_chi2(result.left_chi2, result.left_freedoms);
+    }
     // xi' (C + A^-1)^-1 xi with xi = A^-1 b, without inverting A.
     const Matrix6d a = information_ / result.variance_scale;
     const Vector6d b = right_ / result.variance_scale;

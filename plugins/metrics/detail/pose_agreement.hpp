@@ -51,7 +51,12 @@ class DriftSum {
                                             ///< tell stay at 0
         double chi2 = 0.0;                  ///< 6 degrees of freedom
         double sigmas = 0.0;                ///< of a normal distribution with the same probability
-        double variance_scale = 1.0;        ///< of the boards: max(1, chi2 of what is left / dof)
+        /// What the common drift leaves: how far the boards contradict each other. 6 a board count,
+        /// less the drift's 6.
+        double left_chi2 = 0.0;
+        int left_freedoms = 0;
+        double left_sigmas = 0.0;     ///< of a normal distribution; 0 for one board
+        double variance_scale = 1.0;  ///< of the boards: max(1, left_chi2 / left_freedoms)
     };
     Result result(const Matrix6d& covariance) const;
     const std::vector<Eigen::Vector2d>& errors() const { return errors_; }
@@ -62,7 +67,8 @@ class DriftSum {
     MeasurementNoise noise_;
     Matrix6d information_ = Matrix6d::Zero();
     Vector6d right_ = Vector6d::Zero();
-    double chi2_ = 0.0, numbers_ = 0.0;
+    double chi2_ = 0.0;  ///< of the boards, 6 degrees of freedom each
+    int boards_ = 0;
     std::vector<Eigen::Vector2d> errors_;  ///< measured minus projected, raw px
 };
 

@@ -45,8 +45,12 @@ struct TwoBoards {
     LidarBoards lidar{"LIDAR", {}};
     ImageBoards image;
 
-    TwoBoards() {
-        const CameraModel model(pinhole());
+    /// `focal`: the camera's true focal length, as a factor of the given one.
+    explicit TwoBoards(double focal = 1.0) {
+        mrpt::img::TCamera seen_by = pinhole();
+        seen_by.fx(focal * seen_by.fx());
+        seen_by.fy(focal * seen_by.fy());
+        const CameraModel model(seen_by);
         image.cameras.push_back({"CAMERA", pinhole()});
         const auto corners = load_target("four_square_holes_500mm").corners();
         for (const double left : {1.0, -0.3}) {
@@ -79,7 +83,7 @@ Extrinsics known(double turned_deg, const std::string& camera = "CAMERA") {
     return Extrinsics{{one}, Level::usable, {}};
 }
 
-StageHarness held(const Extrinsics& extrinsics, const TwoBoards& boards = {}) {
+StageHarness held(const Extrinsics& extrinsics, const TwoBoards& boards = TwoBoards()) {
     auto stage = StageHarness::of<AgreementMetric>("metric.agreement");
     stage.give<Extrinsics>("known", extrinsics);
     stage.give<LidarBoards>("lidar", boards.lidar, "hall");
@@ -123,12 +127,99 @@ TEST(Agreement, HalfADegreeIsTold) {
     EXPECT_GT(figure(stage, "drift_sigmas"), 3.0);
 }
 
-TEST(Agreement, AVagueResultIsNotContradictedByWhatItAllows) {
+TEST(Agreement, AVagueResultThatAllowsTheMissIsWeak) {
     Extrinsics vague = known(0.5);
     vague.cameras[0].covariance = 1e-3 * Matrix6d::Identity();  // 32 mm and 1.8 deg
     auto stage = held(vague);
     stage.fire();
-    EXPECT_EQ(stage.verdict(), Level::usable);
+    EXPECT_LT(figure(stage, "drift_sigmas"), 3.0);
+    EXPECT_EQ(stage.verdict(), Level::weak);
+    ASSERT_EQ(stage.reasons().size(), 2U);
+    EXPECT_THAT(stage.reasons()[0], AllOf(HasSubstr("the result's 1 sigma is up to 31.8 mm"),
+                                          HasSubstr("usable up to 5.0 mm and 0.06 deg")));
+    EXPECT_THAT(stage.reasons()[1], AllOf(HasSubstr("agrees only because"), HasSubstr("8.2 px")));
+
+    // On the pixel, but nothing is proved.
+    vague.cameras[0].T_camera_lidar = mounting();
+    auto exact = held(vague);
+    exact.fire();
+    EXPECT_EQ(exact.verdict(), Level::weak);
+    EXPECT_EQ(exact.reasons().size(), 1U);
+}
+
+TEST(Agreement, AResultThatWasNotUsableDoesNotBecomeSo) {
+    for (const Level level : {Level::weak, Level::not_usable}) {
+        Extrinsics poor = known(0.0);
+        poor.level = level;
+        poor.reasons = {"one board only"};
+        auto stage = held(poor);
+        stage.fire();
+        EXPECT_EQ(stage.verdict(), level);
+        ASSERT_EQ(stage.reasons().size(), 1U);
+        EXPECT_EQ(stage.reasons()[0], std::string("the result itself was ") +
+                                          (level == Level::weak ? "weak" : "not usable") +
+                                          ": one board only");
+    }
+}
+
+TEST(Agreement, BoardsThatContradictEachOtherAreWeak) {
+    // The common drift of +8 px and -8 px is nearly none.
+    TwoBoards boards;
+    for (auto& corner : boards.image.boards[0].corners) corner.x() += 8.0;
+    for (auto& corner : boards.image.boards[1].corners) corner.x() -= 8.0;
+    auto stage = held(known(0.0), boards);
+    stage.fire();
+    EXPECT_LT(figure(stage, "drift_sigmas"), 3.0);
+    EXPECT_GT(figure(stage, "contradiction_sigmas"), 3.1);
+    EXPECT_EQ(stage.verdict(), Level::weak);
+    ASSERT_EQ(stage.reasons().size(), 1U);
+    EXPECT_THAT(stage.reasons()[0],
+                AllOf(HasSubstr("the boards contradict each other"), HasSubstr("8.00 px")));
+
+    // Half a pixel is what 2 mm at 3 m allow.
+    auto agrees = held(known(0.0));
+    agrees.fire();
+    EXPECT_LT(figure(agrees, "contradiction_sigmas"), 0.0);
+}
+
+TEST(Agreement, AFocalLengthThatTheResultEstimatedIsApplied) {
+    Extrinsics with_focal = known(0.0);
+    const TwoBoards boards(1.02);
+    auto without = held(with_focal, boards);
+    without.fire();
+    EXPECT_GT(figure(without, "reprojection_rms_px"), 2.0);
+
+    Diagnosis diagnosis;
+    diagnosis.covariance_considered = with_focal.cameras[0].covariance;
+    diagnosis.focal = Diagnosis::FocalScale{1.02, 0.001, true};
+    with_focal.cameras[0].diagnosis = diagnosis;
+    auto stage = held(with_focal, boards);
+    stage.fire();
+    EXPECT_LT(figure(stage, "reprojection_rms_px"), 1e-9);
+    const CameraExtrinsics& camera = stage.out<Extrinsics>("extrinsics").cameras.at(0);
+    EXPECT_NEAR(camera.model.fx(), 918.0, 1e-9);
+    ASSERT_TRUE(camera.diagnosis && camera.diagnosis->focal) << "the next one needs it too";
+
+    with_focal.cameras[0].diagnosis->focal->estimated = false;
+    auto told_only = held(with_focal, boards);
+    told_only.fire();
+    EXPECT_GT(figure(told_only, "reprojection_rms_px"), 2.0);
+}
+
+TEST(Agreement, OtherIntrinsicsInALaterSceneAreRefused) {
+    auto stage = held(known(0.0));
+    TwoBoards other;
+    other.image.cameras[0].camera.fx(905.0);
+    stage.give<LidarBoards>("lidar", other.lidar, "yard");
+    stage.give<ImageBoards>("image", other.image, "yard");
+    try {
+        stage.fire();
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(),
+                    AllOf(HasSubstr("camera 'CAMERA' has other intrinsics in scene 'yard'"),
+                          HasSubstr("the same intrinsics")));
+    }
 }
 
 TEST(Agreement, FarOffOrWithoutBoardsThereIsNothingToCompare) {

@@ -70,6 +70,27 @@ TEST_F(ResultStage, ReadsWhatAResultTells) {
     EXPECT_NEAR(camera.sigma_rotation.y(), 0.2 / 57.29577951, 1e-9);
     EXPECT_EQ(camera.weakest_direction, "tilting");
     EXPECT_EQ(stage.used_files().size(), 1U);
+    EXPECT_EQ(extrinsics.reasons, std::vector<std::string>{"one board only"});
+    EXPECT_FALSE(camera.diagnosis);
+}
+
+TEST_F(ResultStage, ReadsAFocalLengthThatWasEstimated) {
+    const auto focal_of = [&](const json& focal) -> std::optional<Diagnosis::FocalScale> {
+        json result = whole_result();
+        result["extrinsics"][0]["focal"] = focal;
+        const auto camera = read_result(write("result.json", result.dump(1))).cameras.at(0);
+        if (!camera.diagnosis) return std::nullopt;
+        EXPECT_EQ(camera.diagnosis->covariance_considered, camera.covariance);
+        return camera.diagnosis->focal;
+    };
+    const auto focal = focal_of({{"scale", 1.02}, {"sigma", 0.001}, {"estimated", true}});
+    ASSERT_TRUE(focal);
+    EXPECT_EQ(focal->scale, 1.02);
+    EXPECT_EQ(focal->sigma, 0.001);
+    EXPECT_TRUE(focal->estimated);
+    EXPECT_FALSE(focal_of({{"scale", 1.02}, {"sigma", 0.001}, {"estimated", false}}));
+    EXPECT_THAT(refused("focal", {{"scale", -1.0}, {"sigma", 0.001}, {"estimated", true}}),
+                AllOf(HasSubstr("scale"), HasSubstr("must be positive")));
 }
 
 TEST_F(ResultStage, EveryKindOfDamageIsToldWithFileAndKey) {
