@@ -54,6 +54,15 @@ class Verify : public PetalProcess {
     json result_;
 };
 
+TEST(VerifyPipeline, FindsBoardsAsTheCalibrationDoes) {
+    const auto stages = [](const std::string& name) {
+        return json::parse(read_text(PETAL_SOURCE_DIR "/pipelines/" + name))["stages"];
+    };
+    const json verify = stages("verify.json"), calibrate = stages("calibrate.json");
+    for (const char* stage : {"margins", "sparse", "planes", "lidar_boards", "image_boards"})
+        EXPECT_EQ(verify[stage], calibrate[stage]) << stage;
+}
+
 TEST_F(Verify, TheTruthAgreesAndHalfADegreeDoesNot) {
     write_result();
     const Ended agrees = petal("verify result.json --data data --out out");
