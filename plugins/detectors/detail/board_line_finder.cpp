@@ -137,13 +137,17 @@ void BoardFinder::fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPatt
         accept(attempt, placements.front().score, placements.front().pose.inflation);
         return;
     }
-    const std::vector<Eigen::Vector3d> plate = plate_points(best->T_lidar_board);
-    const bool has_plate = !plate.empty();
-    if (has_plate) {
+    std::vector<Eigen::Vector3d> plate = plate_points(best->T_lidar_board);
+    if (!plate.empty()) {
         auto fit = refine_board(grid_, points, plate, best->T_lidar_board, best->inflation,
                                 kInflationSigma);
-        if (fit) best = std::move(fit);
+        if (fit) {
+            best = std::move(fit);
+        } else {
+            plate.clear();  // the plane is that of the points on the sides after all
+        }
     }
+    const bool has_plate = !plate.empty();
     LidarBoard board;
     board.T_lidar_board = best->T_lidar_board;
     const Eigen::Isometry3d to_plane = frame.inverse();
