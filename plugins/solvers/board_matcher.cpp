@@ -183,7 +183,8 @@ given and the reason told. Every scene of a camera carries the one decision.
 **Chi-square** counts each board as one measurement of six numbers, its place and rotation in the image against
 those of the LiDAR, with the covariance of its corners in the image (the joint one where the detector knows it, else
 that of each, times four) and that of its pose in the LiDAR frame (from `lidar_sigma` where it has none). It is taken
-at its own minimum, and the runner-up's surplus is divided by max(1, chi-square / degrees of freedom) of the best.
+at its own minimum, and the runner-up's surplus (the least of all orders within their gates and of the one with the
+least RMS) is divided by max(1, chi-square / degrees of freedom) of the best.
 
 **Covariance of the pairs**: that of the image corner plus the LiDAR's noise as the camera sees it, from the board's
 pose covariance, or from `lidar_sigma` where a board has none.

@@ -143,7 +143,8 @@ are cut from eight lines: directions below 1e-6 of the largest variance are left
 better than `min_sigma_px`. A pose without covariance gets `assumed_board_sigma` and `assumed_board_sigma_deg`
 about the board's centre, and the result is at most weak. Single points (published pairs) have both
 `point_sigma`, carried into the image, and their own covariance; corners of boards of which nothing else is
-known are single points that count 1 / `board_redundancy` each.
+known are single points that count 1 / `board_redundancy` each. (`solver.board_matcher` gives corners without a
+joint covariance four times their own, so its boards are not multiplied again.)
 
 **Chi-square** is that of the LiDAR's poses and, for every image, what it has at the solution more than at the
 pose that fits that image alone: 6 numbers a board and camera; 6 a camera (and one a free focal length) are

@@ -12,6 +12,7 @@
 
 #include "petal/calibration/angles.hpp"
 #include "petal/error.hpp"
+#include "solvers/detail/corner_covariance.hpp"
 
 namespace petal {
 namespace {
@@ -132,30 +133,29 @@ class GroupBuilder {
         // one's.
         const Eigen::Isometry3d turn = board.T_lidar_board.inverse() * pair.T_lidar_board;
         for (const auto& corner : pair.corners_board) view.corners.push_back(turn * corner);
-        view.whitening = pixel_whitening(corner_covariance(seen, static_cast<int>(b), who),
+        view.whitening = pixel_whitening(image_covariance(seen, static_cast<int>(b), who),
                                          params_.min_sigma_px, who);
         board.views.push_back(std::move(view));
     }
 
-    Eigen::MatrixXd corner_covariance(const SeenScene& seen, int b, const std::string& who) const {
+    Eigen::MatrixXd image_covariance(const SeenScene& seen, int b, const std::string& who) const {
         const CameraPairs::BoardPair& board = seen.pairs->boards[static_cast<std::size_t>(b)];
         const auto size = static_cast<Eigen::Index>(2 * board.corners_image.size());
-        if (board.image_covariance.size() > 0) {
-            if (board.image_covariance.rows() != size || board.image_covariance.cols() != size)
-                throw Error(who + ": the covariance of its corners is " +
-                            std::to_string(board.image_covariance.rows()) + " x " +
-                            std::to_string(board.image_covariance.cols()) + ", not " +
-                            std::to_string(size) + " x " + std::to_string(size));
-            return board.image_covariance;
-        }
-        const double unit = params_.board_redundancy * params_.sigma_px * params_.sigma_px;
-        Eigen::MatrixXd covariance = unit * Eigen::MatrixXd::Identity(size, size);
-        for (const PointPair& pair : seen.pairs->pairs) {
-            const Eigen::Index at = 2 * pair.corner;
-            if (pair.board == b && at >= 0 && at < size)
-                covariance.block<2, 2>(at, at) = unit * pair.covariance;
-        }
-        return covariance;
+        if (board.image_covariance.size() > 0 &&
+            (board.image_covariance.rows() != size || board.image_covariance.cols() != size))
+            throw Error(who + ": the covariance of its corners is " +
+                        std::to_string(board.image_covariance.rows()) + " x " +
+                        std::to_string(board.image_covariance.cols()) + ", not " +
+                        std::to_string(size) + " x " + std::to_string(size));
+        const double unit = params_.sigma_px * params_.sigma_px;
+        std::vector<Eigen::Matrix2d> each(board.corners_image.size(),
+                                          unit * Eigen::Matrix2d::Identity());
+        for (const PointPair& pair : seen.pairs->pairs)
+            if (pair.board == b && pair.corner >= 0 &&
+                static_cast<std::size_t>(pair.corner) < each.size())
+                each[static_cast<std::size_t>(pair.corner)] = unit * pair.covariance;
+        return corner_covariance(board.image_covariance, each, each.size(),
+                                 params_.board_redundancy);
     }
 
     JointBoard& shared_board(std::size_t scene, const CameraPairs::BoardPair& pair,
@@ -203,7 +203,8 @@ std::set<BoardKey> board_keys(const SolveInput& camera, const std::vector<SeenSc
 }  // namespace
 
 JointInputs joint_inputs(const std::vector<Packet<Correspondences>>& packets,
-                         const JointNoiseParams& params) {
+                         const JointNoiseParams& params,
+                         const std::function<bool(const SolveInput&)>& wanted) {
     JointInputs result;
     const auto seen = seen_scenes(packets);
     struct Group {
@@ -213,6 +214,7 @@ JointInputs joint_inputs(const std::vector<Packet<Correspondences>>& packets,
     };
     std::vector<Group> groups;
     for (SolveInput& camera : gather(packets)) {
+        if (wanted && !wanted(camera)) continue;
         if (camera.pairs.size() < kFewestPairs) {
             result.too_few.push_back(std::move(camera));
             continue;

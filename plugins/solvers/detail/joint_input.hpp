@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "solvers/detail/corner_covariance.hpp"
 #include "solvers/detail/joint_model.hpp"
 #include "solvers/detail/solve_input.hpp"
 
@@ -19,7 +21,8 @@ struct JointNoiseParams {
     double point_sigma = 0.005;            ///< m, of a single LiDAR point, along each axis
     double sigma_px = 1.0;                 ///< what covariance 1 of a pair stands for
     double min_sigma_px = 0.02;            ///< no direction of a board's corners is taken as better
-    double board_redundancy = 4.0;  ///< of corners that come without a covariance of the board
+    double board_redundancy =
+        kBoardRedundancy;  ///< of corners that come without a covariance of the board
 };
 
 /// One LiDAR and the cameras that are solved together, because boards link them.
@@ -36,7 +39,9 @@ struct JointInputs {
 
 /// Sorts what was gathered. \throws Error naming scene and board where a covariance is none, or
 /// corners are not one a pixel; where a camera's intrinsics differ between scenes.
+/// `wanted`, where given, says of which cameras only.
 JointInputs joint_inputs(const std::vector<Packet<Correspondences>>& packets,
-                         const JointNoiseParams& params);
+                         const JointNoiseParams& params,
+                         const std::function<bool(const SolveInput&)>& wanted = {});
 
 }  // namespace petal

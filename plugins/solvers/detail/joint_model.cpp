@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "petal/error.hpp"
+#include "solvers/detail/corner_covariance.hpp"
 
 namespace petal {
 namespace {
@@ -106,10 +107,9 @@ bool linearise(const CameraModel& model, const JointPoint& point, double point_s
 
 Eigen::MatrixXd pixel_whitening(const Eigen::MatrixXd& covariance, double min_sigma_px,
                                 const std::string& who) {
-    if (!covariance.allFinite())
-        throw Error(who +
-                    ": the covariance of its corners holds NaN or infinity; check what "
-                    "detected it");
+    if (const auto fault = covariance_fault(covariance); !fault.empty())
+        throw Error(who + ": the covariance of its corners " + fault +
+                    "; check what detected it, or leave it empty where it is unknown");
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
     const Eigen::VectorXd& values = eigen.eigenvalues();
     const Eigen::Index size = values.size();

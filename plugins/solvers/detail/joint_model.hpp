@@ -109,7 +109,8 @@ bool linearise(const CameraModel& model, const JointPoint& point, double point_s
 /// W with W'W the pseudo-inverse of a covariance of pixels. Directions with less than 1e-6 of the
 /// largest variance are left out: corners cut from eight lines do not move there at all. The others
 /// are not taken as better than `min_sigma_px`. \throws Error where the matrix is no covariance
-/// or fewer than six directions are left; `who` is named.
+/// (NaN, a variance below -1e-6 of the largest) or fewer than six directions are left; `who` is
+/// named.
 Eigen::MatrixXd pixel_whitening(const Eigen::MatrixXd& covariance, double min_sigma_px,
                                 const std::string& who);
 

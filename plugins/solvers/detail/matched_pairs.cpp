@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "petal/calibration/se3.hpp"
-#include "solvers/detail/order_chi2.hpp"
+#include "solvers/detail/corner_covariance.hpp"
 
 namespace petal {
 namespace {
@@ -25,7 +25,8 @@ CameraPairs::BoardPair board_pair(const BoardSet& boards, const BoardMatch& matc
         pair.corners_board.push_back(T_board_lidar * corner.lidar);
         pair.corners_image.push_back(corner.image);
     }
-    pair.image_covariance = image_covariance(image);
+    pair.image_covariance =
+        corner_covariance(image.joint_covariance, image.covariance, image.corners.size());
     return pair;
 }
 

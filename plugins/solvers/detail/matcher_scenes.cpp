@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "petal/error.hpp"
+#include "solvers/detail/corner_covariance.hpp"
 #include "solvers/detail/solve_input.hpp"
 
 namespace petal {
@@ -18,16 +19,22 @@ std::string scene_text(const FrameInfo& frame) {
                               : "scene '" + frame.name + "'";
 }
 
+void check(const Eigen::MatrixXd& covariance, const std::string& whose) {
+    if (const auto fault = covariance_fault(covariance); !fault.empty())
+        throw Error(whose + " " + fault +
+                    "; repair its detector, or leave it out where it is unknown");
+}
+
 void check(const LidarBoards& lidar, const FrameInfo& frame) {
     for (std::size_t i = 0; i < lidar.boards.size(); ++i) {
         const LidarBoard& board = lidar.boards[i];
-        bool good = board.corners.size() >= 4 && board.T_lidar_board.matrix().allFinite() &&
-                    (!board.covariance || board.covariance->allFinite());
+        const std::string who =
+            scene_text(frame) + ": LiDAR board " + std::to_string(i) + " ('" + board.target + "')";
+        bool good = board.corners.size() >= 4 && board.T_lidar_board.matrix().allFinite();
         for (const auto& corner : board.corners) good = good && corner.allFinite();
         if (!good)
-            throw Error(scene_text(frame) + ": LiDAR board " + std::to_string(i) + " ('" +
-                        board.target +
-                        "') has fewer than four corners, or NaN in them; repair its detector");
+            throw Error(who + " has fewer than four corners, or NaN in them; repair its detector");
+        if (board.covariance) check(*board.covariance, who + ": the covariance of its pose");
     }
 }
 
@@ -38,15 +45,17 @@ void check(const ImageBoards& image, const FrameInfo& frame) {
         bool good =
             board.corners.size() >= 4 &&
             (board.covariance.empty() || board.covariance.size() == board.corners.size()) &&
-            (board.joint_covariance.size() == 0 ||
-             (board.joint_covariance.rows() == numbers &&
-              board.joint_covariance.cols() == numbers && board.joint_covariance.allFinite()));
+            (board.joint_covariance.size() == 0 || (board.joint_covariance.rows() == numbers &&
+                                                    board.joint_covariance.cols() == numbers));
         for (const auto& corner : board.corners) good = good && corner.allFinite();
         const std::string who = scene_text(frame) + ": image board " + std::to_string(i);
         if (!good)
             throw Error(who + " of camera '" + board.camera +
                         "' has fewer than four corners, NaN in them, or a covariance for only "
                         "some; repair its detector");
+        check(board.joint_covariance, who + ": the covariance of its corners");
+        for (std::size_t c = 0; c < board.covariance.size(); ++c)
+            check(board.covariance[c], who + ": the covariance of corner " + std::to_string(c));
         if (std::none_of(image.cameras.begin(), image.cameras.end(),
                          [&](const CameraInfo& camera) { return camera.label == board.camera; }))
             throw Error(who + " names camera '" + board.camera +

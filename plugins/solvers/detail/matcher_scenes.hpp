@@ -37,8 +37,8 @@ struct MatcherCamera {
 /// Sorts what was gathered by camera and LiDAR label, in the order of their first appearance; the
 /// packets must outlive what is returned. A scene without a packet of the LiDAR has no LiDAR
 /// boards. \throws Error naming the scene: two packets of a port for it, a board with fewer than
-/// four corners, NaN, covariances that do not fit it, a camera that is not listed; and where a
-/// camera's intrinsics differ between scenes.
+/// four corners, NaN, covariances that do not fit it or are none, a camera that is not listed; and
+/// where a camera's intrinsics differ between scenes.
 std::vector<MatcherCamera> matcher_cameras(const std::vector<Packet<LidarBoards>>& lidar,
                                            const std::vector<Packet<ImageBoards>>& image);
 

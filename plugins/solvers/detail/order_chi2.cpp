@@ -7,16 +7,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "petal/calibration/se3.hpp"
+#include "solvers/detail/corner_covariance.hpp"
 #include "solvers/detail/reprojection_cost.hpp"
 
 namespace petal {
 namespace {
 
-constexpr double kBoardRedundancy = 4.0;  // 32 numbers a board come from about 8 lines
-constexpr double kSmallestSigma = 0.05;   // px: a covariance of lines alone has no full rank
+constexpr double kSmallestSigma = 0.05;  // px: a covariance of lines alone has no full rank
 
 /// Whitened: what a small motion of the board in the camera's frame does to its pixels.
 struct BoardInImage {
@@ -36,23 +36,28 @@ Matrix6d pose_covariance_of(const std::vector<Eigen::Vector3d>& corners, double 
     return kBoardRedundancy * sigma * sigma * information.ldlt().solve(Matrix6d::Identity());
 }
 
-BoardInImage board_in_image(const BoardSet& boards, const BoardMatch& match, double lidar_sigma) {
+/// None where a covariance is none.
+std::optional<BoardInImage> board_in_image(const BoardSet& boards, const BoardMatch& match,
+                                           double lidar_sigma) {
     const LidarBoard& lidar = *boards.lidar(match).board;
     const ImageBoard& image = *boards.image(match).board;
-    Eigen::MatrixXd covariance = image_covariance(image);
-    if (image.joint_covariance.size() == 0) covariance *= kBoardRedundancy;
+    Eigen::MatrixXd covariance =
+        corner_covariance(image.joint_covariance, image.covariance, image.corners.size());
     covariance.diagonal().array() += kSmallestSigma * kSmallestSigma;
     BoardInImage result;
     const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+    if (!covariance.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
     result.root =
         factor.matrixL().solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
     result.lidar =
         lidar.covariance ? *lidar.covariance : pose_covariance_of(lidar.corners, lidar_sigma);
+    if (!result.lidar.allFinite()) return std::nullopt;
     return result;
 }
 
 /// The board's motion that explains its pixels best, and the inverse of its covariance, the noise
-/// of both sensors together. None where a corner does not project.
+/// of both sensors together. None where a corner does not project, or the two together are no
+/// covariance.
 struct Motion {
     Vector6d motion;
     Matrix6d information;
@@ -80,32 +85,26 @@ std::optional<Motion> motion_of(const BoardSet& boards, const BoardMatch& match,
     Motion result;
     result.motion = solver.solve(whitened.transpose() * (noise.root * error));
     const Matrix6d covariance = solver.solve(Matrix6d::Identity()) + by_lidar;
-    result.information =
-        (0.5 * (covariance + covariance.transpose())).ldlt().solve(Matrix6d::Identity());
+    const Eigen::LLT<Matrix6d> factor(0.5 * (covariance + covariance.transpose()));
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    result.information = factor.solve(Matrix6d::Identity());
     if (!result.motion.allFinite() || !result.information.allFinite()) return std::nullopt;
     return result;
 }
 
 }  // namespace
 
-Eigen::MatrixXd image_covariance(const ImageBoard& board) {
-    if (board.joint_covariance.size() > 0) return board.joint_covariance;
-    const auto rows = 2 * static_cast<Eigen::Index>(board.corners.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(rows, rows);
-    for (std::size_t i = 0; i < board.covariance.size(); ++i)
-        covariance.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(i)) =
-            board.covariance[i];
-    return covariance;
-}
-
-OrderChi2 order_chi2(const BoardSet& boards, const std::vector<BoardMatch>& matches,
-                     const Eigen::Isometry3d& pose, double lidar_sigma) {
+std::optional<OrderChi2> order_chi2(const BoardSet& boards, const std::vector<BoardMatch>& matches,
+                                    const Eigen::Isometry3d& pose, double lidar_sigma) {
     constexpr int kSteps = 5;
     OrderChi2 result;
     result.degrees_of_freedom = 6 * static_cast<int>(matches.size()) - 6;
     std::vector<BoardInImage> noise;
-    for (const BoardMatch& match : matches)
-        noise.push_back(board_in_image(boards, match, lidar_sigma));
+    for (const BoardMatch& match : matches) {
+        auto board = board_in_image(boards, match, lidar_sigma);
+        if (!board) return std::nullopt;
+        noise.push_back(*std::move(board));
+    }
     Eigen::Isometry3d at = pose;
     for (int step = 0; step < kSteps; ++step) {
         Matrix6d information = Matrix6d::Zero();
@@ -113,7 +112,10 @@ OrderChi2 order_chi2(const BoardSet& boards, const std::vector<BoardMatch>& matc
         double chi2 = 0.0;
         for (std::size_t m = 0; m < matches.size(); ++m) {
             const auto motion = motion_of(boards, matches[m], noise[m], at);
-            if (!motion) return result;
+            if (!motion) {
+                if (step == 0) return std::nullopt;
+                return result;
+            }
             information += motion->information;
             weighted += motion->information * motion->motion;
             chi2 += motion->motion.dot(motion->information * motion->motion);

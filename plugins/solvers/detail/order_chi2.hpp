@@ -5,15 +5,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "solvers/detail/board_set.hpp"
 
 namespace petal {
-
-/// The covariance of an image board's corners together, 2N x 2N, u0 v0 u1 v1 ..., px^2: its joint
-/// one, or its corners' as far as they are known, else 1 px^2 each.
-Eigen::MatrixXd image_covariance(const ImageBoard& board);
 
 /// How well an order fits, with the noise of both sensors. Each board counts as one measurement of
 /// its six numbers, where the camera sees it against where the LiDAR has it: its corners share the
@@ -23,7 +20,9 @@ struct OrderChi2 {
     int degrees_of_freedom = 0;  ///< 6 a board, less 6 for the pose
 };
 /// `lidar_sigma` (m, a corner along each axis) is the noise of LiDAR boards without a covariance.
-OrderChi2 order_chi2(const BoardSet& boards, const std::vector<BoardMatch>& matches,
-                     const Eigen::Isometry3d& pose, double lidar_sigma);
+/// None where a corner does not project at `pose`, or a covariance is none: no order may count as a
+/// perfect fit for that.
+std::optional<OrderChi2> order_chi2(const BoardSet& boards, const std::vector<BoardMatch>& matches,
+                                    const Eigen::Isometry3d& pose, double lidar_sigma);
 
 }  // namespace petal

@@ -58,13 +58,23 @@ class Contest {
     double ratio(const BoardOrder& a, const BoardOrder& b) const {
         return floored(a.rms_px()) / floored(b.rms_px());
     }
-    OrderChi2 chi2(const BoardOrder& order) const {
+    std::optional<OrderChi2> chi2(const BoardOrder& order) const {
         return order_chi2(boards_, order.matches, order.poses.front().T_camera_lidar,
                           params_.lidar_sigma);
     }
     OrderChoice fill(const BoardOrder& taken, DecidedBy by, std::string reason) const;
-    /// Chi-square of another order above that of the best, in units of what the best leaves.
-    double surplus(const OrderChi2& mine, const BoardOrder& other) const;
+    /// The rival whose chi-square comes nearest to that of `taken`: of those within their gates
+    /// and the one with the least RMS, since the least RMS need not be the least chi-square.
+    struct Nearest {
+        const BoardOrder* order = nullptr;
+        double more = 0.0;  ///< chi-square above that of `taken`
+    };
+    /// None where a chi-square cannot be told, or there is no rival.
+    std::optional<Nearest> nearest(const BoardOrder& taken) const;
+    /// What a chi-square above that of the best is in units of what the best leaves.
+    static double surplus(const OrderChi2& mine, double more) {
+        return more / std::max(1.0, mine.chi2 / std::max(1, mine.degrees_of_freedom));
+    }
     /// More than noise is left, yet no other order comes near: then the detectors told too little
     /// noise, or one of many boards is false; the order is not in question.
     bool beyond_doubt(const OrderChi2& mine) const;
@@ -88,7 +98,7 @@ OrderChoice Contest::fill(const BoardOrder& taken, DecidedBy by, std::string rea
         choice.decision.runner_up_rms_ratio = ratio(*other, taken);
         // A pose explains the six numbers of one board exactly, whatever its order.
         if (taken.matches.size() > 1)
-            choice.decision.runner_up_chi2 = chi2(*other).chi2 - chi2(taken).chi2;
+            if (const auto next = nearest(taken)) choice.decision.runner_up_chi2 = next->more;
     }
     choice.decision.reason = std::move(reason);
     return choice;
@@ -97,30 +107,48 @@ OrderChoice Contest::fill(const BoardOrder& taken, DecidedBy by, std::string rea
 std::string Contest::why_not_data() const {
     // One board alone maps onto itself, exactly or nearly: whatever its residuals prefer is noise.
     if (best().matches.size() == 1) return "one board looks the same in each of its rotations";
+    const auto mine = chi2(best());
+    const std::string untold = "a chi-square cannot be told (a covariance is none)";
+    if (!mine) return untold;
     const BoardOrder* other = best_other(rivals_, best());
     if (other == nullptr) return "";
-    const std::string named = "the best other order (" + difference_text(best(), *other) + ")";
+    const auto named = [&](const BoardOrder& order) {
+        return "the best other order (" + difference_text(best(), order) + ")";
+    };
     if (ratio(*other, best()) < params_.min_runner_up_ratio)
-        return named + printed(" has only %.2f times the RMS (%.2f against %.2f px)",
-                               ratio(*other, best()), other->rms_px(), best().rms_px());
-    const double more = surplus(chi2(best()), *other);
+        return named(*other) + printed(" has only %.2f times the RMS (%.2f against %.2f px)",
+                                       ratio(*other, best()), other->rms_px(), best().rms_px());
+    const auto next = nearest(best());
+    if (!next) return untold;
+    const double more = surplus(*mine, next->more);
     if (more < params_.min_runner_up_chi2)
-        return named + printed(" has a chi-square only %.1f above (%.1f asked for)", more,
-                               params_.min_runner_up_chi2);
+        return named(*next->order) + printed(" has a chi-square only %.1f above (%.1f asked for)",
+                                             more, params_.min_runner_up_chi2);
     return "";
 }
 
-double Contest::surplus(const OrderChi2& mine, const BoardOrder& other) const {
-    const double scale = std::max(1.0, mine.chi2 / std::max(1, mine.degrees_of_freedom));
-    return (chi2(other).chi2 - mine.chi2) / scale;
+std::optional<Contest::Nearest> Contest::nearest(const BoardOrder& taken) const {
+    const auto mine = chi2(taken);
+    const BoardOrder* least_rms = best_other(rivals_, taken);
+    if (!mine || least_rms == nullptr) return std::nullopt;
+    Nearest found;
+    for (const BoardOrder& rival : rivals_) {
+        if (rival.matches == taken.matches || (&rival != least_rms && rival.worst_gate_ratio > 1.0))
+            continue;
+        const auto other = chi2(rival);
+        if (!other) return std::nullopt;
+        const double more = other->chi2 - mine->chi2;
+        if (found.order == nullptr || more < found.more) found = {&rival, more};
+    }
+    return found;
 }
 
 bool Contest::beyond_doubt(const OrderChi2& mine) const {
     constexpr std::size_t kBoards = 4;  // of fewer a false one bends the pose instead of missing it
     constexpr double kSurplus = 1000.0;
-    const BoardOrder* other = best_other(rivals_, best());
-    return best().matches.size() >= kBoards && other != nullptr &&
-           surplus(mine, *other) >= kSurplus;
+    if (best().matches.size() < kBoards) return false;
+    const auto next = nearest(best());
+    return next && surplus(mine, next->more) >= kSurplus;
 }
 
 OrderChoice Contest::by_data() const {
@@ -132,7 +160,7 @@ OrderChoice Contest::by_data() const {
                                                     ratio(*other, best()));
     // More than noise is left: then a board is false, or the sensors do not see the same ones, and
     // a smaller RMS than another order's proves nothing.
-    const OrderChi2 mine = chi2(best());
+    const OrderChi2 mine = chi2(best()).value();  // told, or the data would not decide
     const double most = std::max(chi2_quantile(mine.degrees_of_freedom, kUpperZ),
                                  kMisjudged * mine.degrees_of_freedom);
     const bool contradicts = !priors_hold(best().poses.front().T_camera_lidar, params_);

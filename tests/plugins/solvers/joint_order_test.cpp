@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -193,6 +194,33 @@ TEST(JointOrder, OtherIntrinsicsAndTwoWiresInASceneAreRefused) {
     scenes[2].image.cameras[0].camera.fx(930.0);
     EXPECT_THAT(message(matcher_of(scenes, true)),
                 HasSubstr("other intrinsics in scene 'place_2'"));
+}
+
+TEST(JointOrder, CovariancesThatAreNoneAreRefusedAndNamed) {
+    const auto refused = [](const auto& spoil) -> std::string {
+        MadeRig rig(1);
+        auto scenes = one_board_each(rig, testing::three_yaw());
+        spoil(scenes[1]);
+        try {
+            match_jointly(scenes);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "matched";
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto joint = refused([](auto& seen) {
+        auto& covariance = seen.image.boards[0].joint_covariance;
+        covariance(4, 5) = covariance(5, 4) = 2.0 * covariance(4, 4);
+    });
+    EXPECT_THAT(joint, HasSubstr("scene 'place_1': image board 0"));
+    EXPECT_THAT(joint, HasSubstr("negative"));
+    EXPECT_THAT(refused([&](auto& seen) { seen.image.boards[0].covariance[3](0, 0) = nan; }),
+                HasSubstr("scene 'place_1': image board 0"));
+    EXPECT_THAT(refused([](auto& seen) { seen.image.boards[0].covariance[3] *= -1.0; }),
+                HasSubstr("corner 3"));
+    EXPECT_THAT(refused([](auto& seen) { *seen.lidar.boards[0].covariance *= -1.0; }),
+                HasSubstr("scene 'place_1': LiDAR board 0"));
 }
 
 TEST(JointOrder, TooLittleNoiseToldDoesNotUndoAnOrderThatNothingComesNear) {

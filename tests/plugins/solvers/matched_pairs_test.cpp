@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "plugins/solvers/joint_match.hpp"
 #include "plugins/solvers/made_rig.hpp"
 #include "solvers/detail/order_chi2.hpp"
@@ -39,7 +41,7 @@ TEST(MatchedPairs, BoardPairsHaveTheCamerasOrder) {
     }
 }
 
-TEST(MatchedPairs, WithoutAJointCovarianceTheCornersOwnIsTold) {
+TEST(MatchedPairs, WithoutAJointCovarianceTheCornersCountAQuarterEach) {
     testing::MadeRig rig(7);
     auto scenes = testing::one_board_each(rig, testing::three_yaw());
     for (auto& scene : scenes) {
@@ -51,8 +53,9 @@ TEST(MatchedPairs, WithoutAJointCovarianceTheCornersOwnIsTold) {
     const CameraPairs::BoardPair& pair = cameras.at(0).boards.at(0);
     EXPECT_FALSE(pair.pose_covariance);
     ASSERT_EQ(pair.image_covariance.rows(), 32);
-    EXPECT_EQ(pair.image_covariance(6, 7), 0.5);
-    EXPECT_EQ(pair.image_covariance(6, 6), 2.0);
+    // Corners cut from about eight lines are not independent: four times their own covariance.
+    EXPECT_EQ(pair.image_covariance(6, 7), 2.0);
+    EXPECT_EQ(pair.image_covariance(6, 6), 8.0);
     EXPECT_EQ(pair.image_covariance(6, 8), 0.0);
 }
 
@@ -74,11 +77,40 @@ TEST(OrderChi2, IsThatOfItsDegreesOfFreedom) {
             matches.push_back({static_cast<int>(matches.size()), static_cast<int>(matches.size())});
             boards.add_scene(&scene.lidar, scene.image, {0});
         }
-        const OrderChi2 chi2 = order_chi2(boards, matches, rig.T_camera_lidar(), 0.005);
-        EXPECT_EQ(chi2.degrees_of_freedom, 18);
-        sum += chi2.chi2;
+        const auto chi2 = order_chi2(boards, matches, rig.T_camera_lidar(), 0.005);
+        ASSERT_TRUE(chi2.has_value());
+        EXPECT_EQ(chi2->degrees_of_freedom, 18);
+        sum += chi2->chi2;
     }
     EXPECT_NEAR(sum / kSets, 18.0, 1.7);
+}
+
+TEST(OrderChi2, WhatCannotBeToldIsNoPerfectFit) {
+    testing::MadeRig rig(1);
+    const CameraModel model(rig.camera());
+    auto scenes = testing::one_board_each(rig, testing::three_yaw());
+    const auto chi2_at = [&](const Eigen::Isometry3d& pose) {
+        BoardSet boards(model, GateParams{});
+        std::vector<BoardMatch> matches;
+        for (const auto& scene : scenes) {
+            matches.push_back({static_cast<int>(matches.size()), static_cast<int>(matches.size())});
+            boards.add_scene(&scene.lidar, scene.image, {0});
+        }
+        return order_chi2(boards, matches, pose, 0.005);
+    };
+    EXPECT_TRUE(chi2_at(rig.T_camera_lidar()).has_value());
+    Eigen::Isometry3d behind = rig.T_camera_lidar();
+    behind.pretranslate(Eigen::Vector3d(0.0, 0.0, -20.0));
+    EXPECT_FALSE(chi2_at(behind).has_value());
+    const auto good = scenes;
+    scenes[1].image.boards[0].joint_covariance *= -1.0;
+    EXPECT_FALSE(chi2_at(rig.T_camera_lidar()).has_value());
+    scenes = good;
+    scenes[1].image.boards[0].joint_covariance(3, 3) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(chi2_at(rig.T_camera_lidar()).has_value());
+    scenes = good;
+    *scenes[1].lidar.boards[0].covariance *= -1.0;
+    EXPECT_FALSE(chi2_at(rig.T_camera_lidar()).has_value());
 }
 
 }  // namespace
