@@ -32,27 +32,41 @@ Point corner_mean(const std::vector<Point>& corners) {
     return sum / static_cast<double>(corners.size());
 }
 
-/// The turn of the LiDAR frame, about the board's centre and normal, that puts corner i where
-/// corner order[i] is: a whole part of a full turn, as the rotations of a board are.
-Eigen::Isometry3d turn_of(const LidarBoard& board, const CornerOrder& order, std::size_t parts) {
+/// The rotations of a board by their angle about its z, each with the turn of the LiDAR frame about
+/// its centre and z that puts corner i where corner order[i] is: a whole part of a full turn. What
+/// finds the rotations knows the board's plane, but neither its side nor its axes.
+std::vector<std::pair<CornerOrder, Eigen::Isometry3d>> ordered_turns(
+    const LidarBoard& board, const std::vector<CornerOrder>& rotations) {
     const Eigen::Isometry3d T_board_lidar = board.T_lidar_board.inverse();
     std::vector<Eigen::Vector3d> flat;
     flat.reserve(board.corners.size());
     for (const auto& corner : board.corners) flat.push_back(T_board_lidar * corner);
     const Eigen::Vector3d centre = corner_mean(flat);
-    double sine = 0.0, cosine = 0.0;
-    for (std::size_t i = 0; i < flat.size(); ++i) {
-        const Eigen::Vector2d from = (flat[i] - centre).head<2>();
-        const Eigen::Vector2d to = (flat[order[i]] - centre).head<2>();
-        sine += from.x() * to.y() - from.y() * to.x();
-        cosine += from.dot(to);
+    const int parts = static_cast<int>(rotations.size());
+    const double part = 2.0 * kPi / parts;
+    std::vector<std::pair<int, CornerOrder>> by_part;
+    for (const CornerOrder& order : rotations) {
+        double sine = 0.0, cosine = 0.0;
+        for (std::size_t i = 0; i < flat.size(); ++i) {
+            const Eigen::Vector2d from = (flat[i] - centre).head<2>();
+            const Eigen::Vector2d to = (flat[order[i]] - centre).head<2>();
+            sine += from.x() * to.y() - from.y() * to.x();
+            cosine += from.dot(to);
+        }
+        const int turned = static_cast<int>(std::lround(std::atan2(sine, cosine) / part));
+        by_part.emplace_back((turned + parts) % parts, order);
     }
-    const double part = 2.0 * kPi / static_cast<double>(parts);
-    const double angle = part * std::round(std::atan2(sine, cosine) / part);
-    Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-    turn.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    turn.translation() = centre - turn.linear() * centre;
-    return board.T_lidar_board * turn * T_board_lidar;
+    std::stable_sort(by_part.begin(), by_part.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::pair<CornerOrder, Eigen::Isometry3d>> result;
+    for (auto& [turned, order] : by_part) {
+        Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+        turn.linear() =
+            Eigen::AngleAxisd(part * turned, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        turn.translation() = centre - turn.linear() * centre;
+        result.emplace_back(std::move(order), board.T_lidar_board * turn * T_board_lidar);
+    }
+    return result;
 }
 
 }  // namespace
@@ -66,9 +80,10 @@ void BoardSet::add_scene(const LidarBoards* lidar, const ImageBoards& images,
         seen.scene = scenes_.size();
         seen.index = static_cast<int>(i);
         seen.board = &board;
-        seen.rotations = board_rotations(board.corners);
-        for (const CornerOrder& order : seen.rotations)
-            seen.turns.push_back(turn_of(board, order, seen.rotations.size()));
+        for (auto& [order, turn] : ordered_turns(board, board_rotations(board.corners))) {
+            seen.rotations.push_back(std::move(order));
+            seen.turns.push_back(turn);
+        }
         seen.centre = corner_mean(board.corners);
         scene.lidar.push_back(lidar_.size());
         lidar_.push_back(std::move(seen));

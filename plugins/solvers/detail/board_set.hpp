@@ -40,6 +40,8 @@ class BoardSet {
         std::size_t scene = 0;
         int index = -1;  ///< in LidarBoards::boards of its scene
         const LidarBoard* board = nullptr;
+        /// One after the other turned further about the board's z: the same number of two boards
+        /// is the same turn.
         std::vector<CornerOrder> rotations;
         /// The motion of the LiDAR frame that puts the board onto itself in each rotation.
         std::vector<Eigen::Isometry3d> turns;
