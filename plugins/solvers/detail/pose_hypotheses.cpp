@@ -11,6 +11,7 @@
 
 #include "petal/calibration/angles.hpp"
 #include "petal/calibration/se3.hpp"
+#include "solvers/detail/least_kept.hpp"
 #include "solvers/detail/pixel_fit.hpp"
 #include "solvers/detail/pose_starts.hpp"
 
@@ -115,10 +116,10 @@ bool as_far_apart(const BoardView& a, const BoardView& b) {
            kDepthError * (a.centre_camera.norm() + b.centre_camera.norm());
 }
 
-std::vector<Agreement> agreements(const std::vector<std::vector<BoardView>>& views,
-                                  const std::function<void()>& poll) {
+std::vector<Eigen::Isometry3d> agreements(const std::vector<std::vector<BoardView>>& views,
+                                          const std::function<void()>& poll) {
     constexpr std::size_t kMost = 3000;
-    std::vector<Agreement> found;
+    LeastKept<Eigen::Isometry3d> found(kMost);
     for (std::size_t i = 0; i < views.size(); ++i) {
         poll();
         for (std::size_t j = i + 1; j < views.size(); ++j) {
@@ -127,13 +128,10 @@ std::vector<Agreement> agreements(const std::vector<std::vector<BoardView>>& vie
             for (const BoardView& a : views[i])
                 for (const BoardView& b : views[j])
                     if (as_far_apart(a, b))
-                        if (const auto pose = agreement(a, b)) found.push_back(*pose);
+                        if (const auto both = agreement(a, b)) found.add(both->cost, both->pose);
         }
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Agreement& a, const Agreement& b) { return a.cost < b.cost; });
-    if (found.size() > kMost) found.resize(kMost);
-    return found;
+    return found.take();
 }
 
 }  // namespace
@@ -154,8 +152,7 @@ std::vector<PoseHypothesis> pose_hypotheses(const BoardSet& boards,
             auto seen = views_of(boards, l, b);
             if (!seen.empty()) views.push_back(std::move(seen));
         }
-    std::vector<Eigen::Isometry3d> poses;
-    for (const Agreement& each : agreements(views, poll)) poses.push_back(each.pose);
+    std::vector<Eigen::Isometry3d> poses = agreements(views, poll);
     for (const auto& board : views)
         for (const BoardView& view : board) poses.push_back(view.pose);
 
