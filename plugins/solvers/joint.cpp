@@ -4,12 +4,17 @@
 #include "solvers/joint.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "petal/error.hpp"
 #include "petal/printed.hpp"
 #include "solvers/detail/joint_report.hpp"
+#include "solvers/detail/joint_search.hpp"
 
 namespace petal {
 namespace {
@@ -45,6 +50,27 @@ void check_prior_camera(const JointInputs& inputs, const JointParams& params) {
                     "; set prior_camera to one of " + labels);
 }
 
+/// The cameras of a group without a solution that stand in its way: those without a pose of their
+/// own, or all.
+std::vector<SolveInput> without_a_pose(const JointInput& input) {
+    std::vector<SolveInput> lost;
+    for (const std::size_t c : cameras_without_pose(input)) lost.push_back(input.cameras[c]);
+    return lost.empty() ? input.cameras : lost;
+}
+
+/// What joint_inputs is asked for to go on with the other cameras of the group.
+std::function<bool(const SolveInput&)> wanted_but(const std::vector<SolveInput>& lost,
+                                                  const JointInput& input) {
+    const auto among = [](const std::vector<SolveInput>& cameras, const SolveInput& one) {
+        return std::any_of(cameras.begin(), cameras.end(), [&](const SolveInput& camera) {
+            return camera.camera == one.camera && camera.lidar == one.lidar;
+        });
+    };
+    return [&lost, &input, among](const SolveInput& one) {
+        return among(input.cameras, one) && !among(lost, one);
+    };
+}
+
 }  // namespace
 
 void Joint::finish(Run& run) {
@@ -57,30 +83,42 @@ void Joint::finish(Run& run) {
         extrinsics.reasons.push_back(who + ": nothing to solve, " + seen);
     };
 
-    const JointInputs inputs = joint_inputs(run.all<Correspondences>("correspondences"), p_);
+    const auto packets = run.all<Correspondences>("correspondences");
+    const JointInputs inputs = joint_inputs(packets, p_);
     check_prior_camera(inputs, p_);
     if (inputs.solvable.empty() && inputs.too_few.empty())
         unsolved("any camera", "no scene told of a camera", "", "check what feeds the matcher");
     for (const SolveInput& camera : inputs.too_few)
         unsolved("camera '" + camera.camera + "'", std::to_string(camera.pairs.size()) + " pairs",
                  "at least 4 pairs", "see the notes of the detectors and of the matcher");
-    for (const JointInput& input : inputs.solvable) {
+    std::deque<JointInput> groups(inputs.solvable.begin(), inputs.solvable.end());
+    while (!groups.empty()) {
         run.check_cancelled();
-        const auto level = report_joint(input, p_, prior_for(input, p_), extrinsics);
+        const JointInput input = std::move(groups.front());
+        groups.pop_front();
+        const std::size_t known = extrinsics.cameras.size();
+        const auto level = report_joint(
+            input, p_, prior_for(input, p_), [&run] { run.check_cancelled(); }, extrinsics);
         if (!level) {
-            unsolved("camera '" + input.cameras.front().camera + "'",
-                     "no pose puts the " + std::to_string(input.cameras.front().pairs.size()) +
-                         " pairs in front of the camera",
-                     "four pairs that do not lie on one line, pixels inside the camera's model",
-                     "check the pairs, the intrinsics and their distortion");
+            const auto lost = without_a_pose(input);
+            for (const SolveInput& camera : lost)
+                unsolved("camera '" + camera.camera + "'",
+                         "no pose puts the " + std::to_string(camera.pairs.size()) +
+                             " pairs in front of the camera",
+                         "four pairs that do not lie on one line, pixels inside the camera's model",
+                         "check the pairs, the intrinsics and their distortion");
+            const auto rest = joint_inputs(packets, p_, wanted_but(lost, input)).solvable;
+            groups.insert(groups.begin(), rest.begin(), rest.end());
             continue;
         }
         extrinsics.level = std::max(extrinsics.level, *level);
-        for (const CameraExtrinsics& camera : extrinsics.cameras)
+        for (std::size_t c = known; c < extrinsics.cameras.size(); ++c) {
+            const CameraExtrinsics& camera = extrinsics.cameras[c];
             run.log(LogLevel::info,
                     "camera '" + camera.camera + "'" +
                         printed(": %zu pairs, chi-square %.1f (%d)", camera.residuals.size(),
                                 camera.chi2, camera.degrees_of_freedom));
+        }
     }
     run.verdict(extrinsics.level, extrinsics.reasons);
     run.write("extrinsics", std::move(extrinsics));

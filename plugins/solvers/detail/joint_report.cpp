@@ -51,11 +51,13 @@ std::string drift_text(const std::vector<Diagnosis::Drift>& drifts) {
 class JointReport {
    public:
     JointReport(const JointInput& input, const JointParams& params,
-                const std::optional<TranslationPrior>& prior, Extrinsics& extrinsics)
+                const std::optional<TranslationPrior>& prior, const std::function<void()>& poll,
+                Extrinsics& extrinsics)
         : input_(input), params_(params), reasons_(extrinsics.reasons), extrinsics_(extrinsics) {
         options_.robust_loss = params.robust_loss;
         options_.range_offset_sigma = params.range_offset_allowance * params.range_offset_sigma;
         options_.prior = prior;
+        options_.poll = poll;
     }
 
     std::optional<Level> write() {
@@ -65,17 +67,21 @@ class JointReport {
         free_focal_lengths();
         const JointUncertainty uncertainty(input_.model, options_, solution_);
         const SceneInfluence influence(input_.model, options_, solution_, uncertainty);
+        std::vector<std::vector<Diagnosis::Scene>> scenes;
+        for (std::size_t c = 0; c < input_.cameras.size(); ++c) scenes.push_back(influence.of(c));
         for (std::size_t c = 0; c < input_.cameras.size(); ++c) {
+            if (options_.poll) options_.poll();
             CameraExtrinsics camera = extrinsics_of(c, uncertainty);
             Diagnosis& diagnosis = *camera.diagnosis;
-            diagnosis.scenes = influence.of(c);
+            diagnosis.scenes = scenes[c];
             lower(judge(camera, params_, reasons_));
             tell_assumed(c);
             tell_focal(c, *diagnosis.focal);
-            if (c == 0) tell_outliers(c, diagnosis.scenes);
+            tell_outliers(c, scenes);
             if (options_.prior && options_.prior->camera == c)
                 diagnosis.prior = prior_of(c, camera, uncertainty);
-            if (minima->other && minima->other->camera == c) tell_other(*minima->other);
+            if (minima->other && minima->other->camera == c)
+                tell_other(*minima->other, diagnosis.variance_scale);
             if (diagnosis.advice && too_wide(camera))
                 reasons_.push_back(who(c) +
                                    "what would help most next: " + diagnosis.advice->sentence);
@@ -199,12 +205,32 @@ class JointReport {
                               : ": check the intrinsics"));
     }
 
-    void tell_outliers(std::size_t c, const std::vector<Diagnosis::Scene>& scenes) {
-        if (input_.model.scenes.size() == 2 && scenes[0].outlier && scenes[1].outlier)
+    /// The camera that moves most, in sigmas, where one of `scenes` is left out: an outlier is one
+    /// of the whole group, but only that camera may have seen anything wrong.
+    static std::size_t most_moved(const std::vector<std::vector<Diagnosis::Scene>>& cameras,
+                                  const std::vector<std::size_t>& scenes) {
+        std::size_t most = 0;
+        double sigmas = -1.0;
+        for (std::size_t c = 0; c < cameras.size(); ++c)
+            for (const std::size_t s : scenes)
+                if (cameras[c][s].shift_sigmas > sigmas) {
+                    most = c;
+                    sigmas = cameras[c][s].shift_sigmas;
+                }
+        return most;
+    }
+
+    /// Those that move this camera most.
+    void tell_outliers(std::size_t c, const std::vector<std::vector<Diagnosis::Scene>>& cameras) {
+        const std::vector<Diagnosis::Scene>& scenes = cameras[c];
+        if (scenes.size() == 2 && scenes[0].outlier && scenes[1].outlier) {
+            if (most_moved(cameras, {0, 1}) != c) return;
             return weak(who(c) + "scenes '" + scenes[0].name + "' and '" + scenes[1].name +
                         "' contradict each other; which of them is wrong a third one would tell");
-        for (const Diagnosis::Scene& scene : scenes)
-            if (scene.outlier)
+        }
+        for (std::size_t s = 0; s < scenes.size(); ++s) {
+            const Diagnosis::Scene& scene = scenes[s];
+            if (scene.outlier && most_moved(cameras, {s}) == c)
                 weak(who(c) + "scene '" + scene.name +
                      "' does not fit the others: without it the "
                      "pose moves by " +
@@ -212,6 +238,7 @@ class JointReport {
                              "out",
                              column_shift(c, scene.shift).norm() * 1e3,
                              scene.shift.tail<3>().norm() * kDegrees, scene.shift_sigmas));
+        }
     }
     Eigen::Vector3d column_shift(std::size_t c, const Vector6d& shift) const {
         const Eigen::Isometry3d& pose = solution_.state.T_camera_lidar[c];
@@ -253,12 +280,18 @@ class JointReport {
         return uncertainty.variance_scale();
     }
 
-    void tell_other(const JointMinima::Other& other) {
-        if (other.squares >= chi2_quantile(6, kUpperZ3)) return;
-        weak(who(other.camera) +
-             printed("another pose, %.1f deg and %.2f m away, explains the same boards nearly as "
-                     "well (chi-square %.1f more)",
-                     other.angle * kDegrees, other.distance, other.squares));
+    void tell_other(const JointMinima::Other& other, double variance_scale) {
+        const double more = other.squares / variance_scale;
+        if (more >= chi2_quantile(6, kUpperZ3)) return;
+        const std::string pose =
+            who(other.camera) + printed("another pose, %.1f deg and %.2f m away, ",
+                                        other.angle * kDegrees, other.distance);
+        weak(pose + (more < 0.0 ? printed("explains the same boards better (chi-square %.1f less); "
+                                          "the prior on the order kept this one",
+                                          -more)
+                                : printed("explains the same boards nearly as well (chi-square "
+                                          "%.1f more)",
+                                          more)));
     }
 
     const JointInput& input_;
@@ -274,8 +307,8 @@ class JointReport {
 
 std::optional<Level> report_joint(const JointInput& input, const JointParams& params,
                                   const std::optional<TranslationPrior>& prior,
-                                  Extrinsics& extrinsics) {
-    return JointReport(input, params, prior, extrinsics).write();
+                                  const std::function<void()>& poll, Extrinsics& extrinsics) {
+    return JointReport(input, params, prior, poll, extrinsics).write();
 }
 
 }  // namespace petal

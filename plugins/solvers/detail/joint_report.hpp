@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,9 +15,10 @@
 namespace petal {
 
 /// Solves one group of cameras and judges the result. Returns the level; the cameras and the
-/// reasons why not better are added to `extrinsics`. None where no pose was found.
+/// reasons why not better are added to `extrinsics`. None where no pose was found: then nothing is.
+/// `poll` is called now and then and may throw, to cancel.
 std::optional<Level> report_joint(const JointInput& input, const JointParams& params,
                                   const std::optional<TranslationPrior>& prior,
-                                  Extrinsics& extrinsics);
+                                  const std::function<void()>& poll, Extrinsics& extrinsics);
 
 }  // namespace petal

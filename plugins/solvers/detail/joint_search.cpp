@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "solvers/detail/pose_starts.hpp"
@@ -68,32 +69,54 @@ std::optional<JointMinima> search_joint(const JointInput& input, const JointOpti
         if (minima.back().empty()) return std::nullopt;
         start.push_back(minima.back().front());
     }
-    std::optional<JointMinima> found;
-    if (auto solution = solve_joint(input.model, options, start))
-        found = JointMinima{*std::move(solution), std::nullopt};
+    std::optional<JointSolution> best = solve_joint(input.model, options, start);
+    std::vector<JointSolution> others;
     for (std::size_t c = 0; c < minima.size(); ++c)
         for (std::size_t i = 1; i < minima[c].size(); ++i) {
-            auto other_start = found ? found->best.state.T_camera_lidar : start;
+            auto other_start = best ? best->state.T_camera_lidar : start;
             other_start[c] = minima[c][i];
             auto other = solve_joint(input.model, options, other_start);
             if (!other) continue;
-            if (!found) {
-                found = JointMinima{*std::move(other), std::nullopt};
+            if (!best) {
+                best = std::move(other);
                 continue;
             }
-            const Eigen::Isometry3d a = found->best.state.T_camera_lidar[c];
-            const Eigen::Isometry3d b = other->state.T_camera_lidar[c];
-            JointMinima::Other told{c, angle_between(a, b),
-                                    (a.translation() - b.translation()).norm(),
-                                    other->squares - found->best.squares};
-            if (told.angle < kSamePose && told.distance < kSamePose) continue;
-            if (told.squares < 0.0 && input.cameras[c].order.by != DecidedBy::prior) {
-                found->best = *std::move(other);
-                told.squares = -told.squares;
-            }
-            if (!found->other || told.squares < found->other->squares) found->other = told;
+            if (other->squares < best->squares && input.cameras[c].order.by != DecidedBy::prior)
+                std::swap(*best, *other);
+            others.push_back(*std::move(other));
         }
-    return found;
+    if (!best) return std::nullopt;
+    auto told = nearest_other(*best, others);
+    return JointMinima{*std::move(best), told};
+}
+
+std::optional<JointMinima::Other> nearest_other(const JointSolution& best,
+                                                const std::vector<JointSolution>& others) {
+    std::optional<JointMinima::Other> nearest;
+    for (const JointSolution& other : others) {
+        JointMinima::Other told;
+        for (std::size_t c = 0; c < best.state.T_camera_lidar.size(); ++c) {
+            const Eigen::Isometry3d& a = best.state.T_camera_lidar[c];
+            const Eigen::Isometry3d& b = other.state.T_camera_lidar[c];
+            const double angle = angle_between(a, b);
+            const double distance = (a.translation() - b.translation()).norm();
+            if (std::max(angle, distance) <= std::max(told.angle, told.distance)) continue;
+            told.camera = c;
+            told.angle = angle;
+            told.distance = distance;
+        }
+        if (told.angle < kSamePose && told.distance < kSamePose) continue;
+        told.squares = other.squares - best.squares;
+        if (!nearest || told.squares < nearest->squares) nearest = told;
+    }
+    return nearest;
+}
+
+std::vector<std::size_t> cameras_without_pose(const JointInput& input) {
+    std::vector<std::size_t> lost;
+    for (std::size_t c = 0; c < input.cameras.size(); ++c)
+        if (camera_minima(input.model.cameras[c], input.cameras[c]).empty()) lost.push_back(c);
+    return lost;
 }
 
 }  // namespace petal

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "solvers/detail/joint_input.hpp"
 #include "solvers/detail/joint_solve.hpp"
@@ -16,7 +18,9 @@ struct JointMinima {
         std::size_t camera = 0;  ///< whose pose differs
         double angle = 0.0;      ///< rad
         double distance = 0.0;   ///< m
-        double squares = 0.0;    ///< what its whitened squares are more than the best one's
+        /// What its whitened squares are more than the best one's; less than zero where a prior
+        /// keeps one that is not the least.
+        double squares = 0.0;
     };
     JointSolution best;
     std::optional<Other> other;
@@ -28,5 +32,14 @@ struct JointMinima {
 /// problem. Where a prior chose the order, the minimum nearest to the matcher's pose is taken.
 /// None where no start puts everything in front of the cameras.
 std::optional<JointMinima> search_joint(const JointInput& input, const JointOptions& options);
+
+/// Of `others`, that with the least squares which is not `best` again: the camera whose pose
+/// differs most is told. None where all are the same.
+std::optional<JointMinima::Other> nearest_other(const JointSolution& best,
+                                                const std::vector<JointSolution>& others);
+
+/// The cameras (indices into `input.cameras`) that no start leads to a pose of: with one of these
+/// the whole group has none.
+std::vector<std::size_t> cameras_without_pose(const JointInput& input);
 
 }  // namespace petal

@@ -80,6 +80,7 @@ class JointSolver {
 
     std::optional<JointSolution> from(JointState state) {
         for (int round = 0; round < kMostRounds; ++round) {
+            if (options_.poll) options_.poll();
             if (!whiten_points(state) || !projects(state) || !refine(state)) return std::nullopt;
             JointSolution solution = figures(state);
             const JointState before = state;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct JointOptions {
     std::vector<bool> free_focal;       ///< of each camera; empty: none is free
     std::optional<TranslationPrior> prior;
     std::optional<std::size_t> without_scene;  ///< as if that scene had not been taken
+    std::function<void()> poll;  ///< called before each round of solving; may throw, to cancel
 };
 
 /// A minimum of the joint problem.

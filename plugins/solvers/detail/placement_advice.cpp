@@ -256,10 +256,10 @@ std::optional<Diagnosis::Advice> advise_placement(const JointModel& model,
                         if (after.worst(params) >= best * (1.0 - 1e-6)) continue;
                         best = after.worst(params);
                         advice.emplace();
-                        advice->sentence = std::string("a board ") + kPlaces[row][column] +
-                                           " of the image, " + turned_text(pitch, yaw) +
-                                           printed(", at %g m: ", range) +
-                                           sigma_text(before, after, params);
+                        advice->sentence =
+                            std::string("a board ") + kPlaces[row][column] + " of the image, " +
+                            turned_text(pitch, yaw) + printed(", at %g m: ", range) +
+                            sigma_text(before, after, params) + ", if the LiDAR sees it there";
                         advice->range = range;
                         advice->u = pixel.x();
                         advice->v = pixel.y();

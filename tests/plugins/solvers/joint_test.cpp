@@ -86,6 +86,7 @@ TEST(Joint, OneFlatBoardIsNeverUsable) {
         EXPECT_THAT(stage.reasons(), Contains(HasSubstr("weakest:")));
         EXPECT_THAT(all_reasons(stage), HasSubstr("about the camera's"));
         EXPECT_THAT(stage.reasons(), Contains(HasSubstr("what would help most next: a board")));
+        EXPECT_THAT(all_reasons(stage), HasSubstr(", if the LiDAR sees it there"));
     }
 }
 
@@ -298,6 +299,13 @@ TEST(Joint, BadCovariancesAreRefusedAndNamed) {
                 HasSubstr("scene 'b'"));
     EXPECT_THAT(refused([](auto& board) { board.image_covariance.setZero(); }),
                 HasSubstr("rank 0"));
+    EXPECT_THAT(refused([](auto& board) {
+                    // Twice as far from independent as can be: one direction below zero.
+                    auto& covariance = board.image_covariance;
+                    covariance(4, 5) = covariance(5, 4) =
+                        2.0 * std::sqrt(covariance(4, 4) * covariance(5, 5));
+                }),
+                HasSubstr("negative"));
     EXPECT_THAT(refused([](auto& board) { board.image_covariance.resize(4, 4); }),
                 HasSubstr("not 32 x 32"));
     EXPECT_THAT(refused([](auto& board) { board.corners_image.pop_back(); }),
