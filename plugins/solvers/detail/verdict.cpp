@@ -35,6 +35,15 @@ Level judge(const CameraExtrinsics& camera, const VerdictParams& params,
     const std::string who = "camera '" + camera.camera + "': ";
     Level level = Level::usable;
 
+    // Comparisons with NaN are false, so it would pass every limit below.
+    if (!camera.T_camera_lidar.matrix().allFinite() || !camera.covariance.allFinite() ||
+        !std::isfinite(camera.chi2)) {
+        reasons.push_back(who +
+                          "the pose, its covariance or its chi-square holds NaN or infinity, so "
+                          "nothing is known of it; check the pairs and their covariances");
+        return Level::not_usable;
+    }
+
     const PrincipalSigma sigma = principal_sigma(camera);
     const double rotation_deg = sigma.rotation * kDegrees;
     const bool useless =
