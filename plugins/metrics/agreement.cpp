@@ -79,7 +79,7 @@ double rms(const std::vector<Eigen::Vector2d>& errors) {
     return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-double median(std::vector<double> values) {
+double median_distance(std::vector<double> values) {
     const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), half, values.end());
     return *half;
@@ -131,7 +131,7 @@ class Holding {
         value("data_variance_scale", drift.variance_scale, "1");
         if (!to_edge_.empty()) {
             value("point_to_edge_count", static_cast<double>(to_edge_.size()), "1");
-            value("point_to_edge_median_px", median(to_edge_), "px");
+            value("point_to_edge_median_px", median_distance(to_edge_), "px");
         }
         if (drift.left_freedoms > 0) value("contradiction_sigmas", drift.left_sigmas, "1");
         std::vector<std::string> reasons;

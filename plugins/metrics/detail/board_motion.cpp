@@ -14,10 +14,10 @@
 namespace petal {
 namespace {
 
-constexpr double kBorder = 0.03;        // m around the board that is looked at
-constexpr double kBand = 0.025;         // m on either side of an edge
-constexpr double kFromEdge = 0.015;     // m: nearer points may be mixed with what lies behind
-constexpr double kPlaneDepth = 0.05;    // m
+constexpr double kMotionBorder = 0.03;      // m around the board that is looked at
+constexpr double kMotionBand = 0.025;       // m on either side of an edge
+constexpr double kMotionFromEdge = 0.015;   // m: nearer points may be mixed with what lies behind
+constexpr double kMotionPlaneDepth = 0.05;  // m
 constexpr double kFloorSigma = 0.0002;  // m: what patterns that differ from split to split leave
 
 /// The standard normal's upper quantile for a small probability, by bisection of erfc.
@@ -109,8 +109,9 @@ std::vector<std::optional<SplitPose>> split_poses(const Cloud& cloud, const Time
                                                   const LidarBoard& board, const Target& target) {
     std::vector<std::optional<SplitPose>> poses(splits.size());
     const PlateEdges edges(target);
-    auto rays = plate_rays(cloud, board.T_lidar_board, edges.width(), edges.height(), kBorder);
-    const auto whole = plate_plane(rays, edges, kFromEdge, kPlaneDepth);
+    auto rays =
+        plate_rays(cloud, board.T_lidar_board, edges.width(), edges.height(), kMotionBorder);
+    const auto whole = plate_plane(rays, edges, kMotionFromEdge, kMotionPlaneDepth);
     if (!whole) return poses;
     flatten(rays, *whole, edges.middle());
     const double depth = std::clamp(3.5 * whole->rms, 0.01, 0.05);
@@ -121,9 +122,9 @@ std::vector<std::optional<SplitPose>> split_poses(const Cloud& cloud, const Time
     std::vector<std::vector<EdgeRay>> beside;
     std::vector<EdgeRay> all;
     for (auto& own : of_split) {
-        planes.push_back(plate_plane(own, edges, kFromEdge, depth));
+        planes.push_back(plate_plane(own, edges, kMotionFromEdge, depth));
         if (planes.back()) flatten(own, *planes.back(), edges.middle());
-        beside.push_back(edge_rays(own, edges, kBand, depth));
+        beside.push_back(edge_rays(own, edges, kMotionBand, depth));
         if (planes.back()) all.insert(all.end(), beside.back().begin(), beside.back().end());
     }
     const auto shown = shown_edges(all, edges.edges().size());

@@ -18,11 +18,11 @@
 namespace petal {
 namespace {
 
-constexpr double kBorder = 0.06;      // m around the board: a wrong target's edges lie aside
-constexpr double kBand = 0.045;       // m on either side of an edge; bars are 0.1 m wide
-constexpr double kFromEdge = 0.015;   // m: nearer points may be mixed with what lies behind
-constexpr double kPlaneDepth = 0.05;  // m
-constexpr double kPatch = 0.05;       // m
+constexpr double kShapeBorder = 0.06;      // m around the board: a wrong target's edges lie aside
+constexpr double kShapeBand = 0.045;       // m on either side of an edge; bars are 0.1 m wide
+constexpr double kShapeFromEdge = 0.015;   // m: nearer points may be mixed with what lies behind
+constexpr double kShapePlaneDepth = 0.05;  // m
+constexpr double kPatch = 0.05;            // m
 constexpr std::size_t kFewestPoints = 200;
 constexpr std::size_t kFewestInPatch = 8;
 constexpr double kEdgeFloor = 0.0007;  // m, 1 sigma: what lies behind one edge and not another
@@ -47,7 +47,7 @@ void measure_surface(const std::vector<PlateRay>& rays, const PlateEdges& edges,
         return row;
     };
     for (const PlateRay& ray : rays) {
-        if (std::abs(ray.off) > depth || edges.inside(ray.at) < kFromEdge) continue;
+        if (std::abs(ray.off) > depth || edges.inside(ray.at) < kShapeFromEdge) continue;
         Patch& patch = patches[{static_cast<int>(std::floor(ray.at.x() / kPatch)),
                                 static_cast<int>(std::floor(ray.at.y() / kPatch))}];
         patch.sum += ray.off;
@@ -173,14 +173,14 @@ void measure_axis(int axis, const PlateEdges& edges,
 std::optional<BoardShape> board_shape(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_board,
                                       const Target& target) {
     const PlateEdges edges(target);
-    auto rays = plate_rays(cloud, T_lidar_board, edges.width(), edges.height(), kBorder);
-    const auto plane = plate_plane(rays, edges, kFromEdge, kPlaneDepth);
+    auto rays = plate_rays(cloud, T_lidar_board, edges.width(), edges.height(), kShapeBorder);
+    const auto plane = plate_plane(rays, edges, kShapeFromEdge, kShapePlaneDepth);
     if (!plane || plane->count < kFewestPoints) return std::nullopt;
     flatten(rays, *plane, edges.middle());
     const double depth = std::clamp(3.5 * plane->rms, 0.01, 0.05);
     BoardShape shape;
     measure_surface(rays, edges, depth, shape);
-    const auto shown = shown_edges(edge_rays(rays, edges, kBand, depth), edges.edges().size());
+    const auto shown = shown_edges(edge_rays(rays, edges, kShapeBand, depth), edges.edges().size());
     measure_axis(0, edges, shown, shape.pitch_x, shape.width);
     measure_axis(1, edges, shown, shape.pitch_y, shape.height);
     return shape;

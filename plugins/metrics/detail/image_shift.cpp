@@ -116,7 +116,7 @@ std::size_t finite_count(const std::vector<Eigen::Vector2d>& points) {
         points.begin(), points.end(), [](const Eigen::Vector2d& p) { return p.allFinite(); }));
 }
 
-double median(std::vector<double> values) {
+double median_shift(std::vector<double> values) {
     const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), half, values.end());
     return *half;
@@ -175,11 +175,11 @@ ImageShifts image_shifts(const std::vector<const CameraImage*>& images,
             shift.from = name(a);
             shift.to = name(b);
             shift.seconds = seconds_between(*images[a], *images[b]);
-            shift.px = {median(u), median(v)};
+            shift.px = {median_shift(u), median_shift(v)};
             for (std::size_t i = 0; i < u.size(); ++i)
                 off.push_back(std::hypot(u[i] - shift.px.x(), v[i] - shift.px.y()));
             // The median of a Rayleigh law is 1.18 sigma; a median of n has 1.25 sigma / sqrt(n).
-            const double one = median(off) / 1.1774;
+            const double one = median_shift(off) / 1.1774;
             shift.sigma_px =
                 std::hypot(1.2533 * one / std::sqrt(static_cast<double>(u.size())), kFloorPx);
             shift.metres = shift.px.norm() * radius_m / radius_px;

@@ -91,7 +91,7 @@ StageHarness held(const Extrinsics& extrinsics, const TwoBoards& boards = TwoBoa
     return stage;
 }
 
-double figure(const StageHarness& stage, const std::string& name) {
+double agreement_figure(const StageHarness& stage, const std::string& name) {
     for (const Metric& metric : stage.out<Metrics>("metrics").values)
         if (metric.name == "agreement." + name) return metric.value;
     ADD_FAILURE() << "no " << name;
@@ -103,9 +103,9 @@ TEST(Agreement, RightExtrinsicsAgree) {
     stage.fire();
     EXPECT_EQ(stage.verdict(), Level::usable);
     EXPECT_TRUE(stage.reasons().empty());
-    EXPECT_EQ(figure(stage, "boards"), 2.0);
-    EXPECT_LT(figure(stage, "reprojection_rms_px"), 1e-9);
-    EXPECT_LT(figure(stage, "drift_sigmas"), 0.0);
+    EXPECT_EQ(agreement_figure(stage, "boards"), 2.0);
+    EXPECT_LT(agreement_figure(stage, "reprojection_rms_px"), 1e-9);
+    EXPECT_LT(agreement_figure(stage, "drift_sigmas"), 0.0);
     const CameraPairs& pairs = stage.out<Correspondences>("correspondences").cameras.at(0);
     EXPECT_EQ(pairs.scene_name, "hall");
     ASSERT_EQ(pairs.boards.size(), 2U);
@@ -122,9 +122,9 @@ TEST(Agreement, HalfADegreeIsTold) {
     EXPECT_THAT(stage.reasons()[0],
                 AllOf(HasSubstr("camera 'CAMERA': the new data do not agree"), HasSubstr("px")));
     // 0.5 deg at 900 px are 7.9 px, a little more off the middle.
-    EXPECT_NEAR(figure(stage, "reprojection_rms_px"), 8.2, 0.5);
-    EXPECT_NEAR(figure(stage, "drift_rotation_deg"), 0.5, 0.15);
-    EXPECT_GT(figure(stage, "drift_sigmas"), 3.0);
+    EXPECT_NEAR(agreement_figure(stage, "reprojection_rms_px"), 8.2, 0.5);
+    EXPECT_NEAR(agreement_figure(stage, "drift_rotation_deg"), 0.5, 0.15);
+    EXPECT_GT(agreement_figure(stage, "drift_sigmas"), 3.0);
 }
 
 TEST(Agreement, AVagueResultThatAllowsTheMissIsWeak) {
@@ -132,7 +132,7 @@ TEST(Agreement, AVagueResultThatAllowsTheMissIsWeak) {
     vague.cameras[0].covariance = 1e-3 * Matrix6d::Identity();  // 32 mm and 1.8 deg
     auto stage = held(vague);
     stage.fire();
-    EXPECT_LT(figure(stage, "drift_sigmas"), 3.0);
+    EXPECT_LT(agreement_figure(stage, "drift_sigmas"), 3.0);
     EXPECT_EQ(stage.verdict(), Level::weak);
     ASSERT_EQ(stage.reasons().size(), 2U);
     EXPECT_THAT(stage.reasons()[0], AllOf(HasSubstr("the result's 1 sigma is up to 31.8 mm"),
@@ -169,8 +169,8 @@ TEST(Agreement, BoardsThatContradictEachOtherAreWeak) {
     for (auto& corner : boards.image.boards[1].corners) corner.x() -= 8.0;
     auto stage = held(known(0.0), boards);
     stage.fire();
-    EXPECT_LT(figure(stage, "drift_sigmas"), 3.0);
-    EXPECT_GT(figure(stage, "contradiction_sigmas"), 3.1);
+    EXPECT_LT(agreement_figure(stage, "drift_sigmas"), 3.0);
+    EXPECT_GT(agreement_figure(stage, "contradiction_sigmas"), 3.1);
     EXPECT_EQ(stage.verdict(), Level::weak);
     ASSERT_EQ(stage.reasons().size(), 1U);
     EXPECT_THAT(stage.reasons()[0],
@@ -179,7 +179,7 @@ TEST(Agreement, BoardsThatContradictEachOtherAreWeak) {
     // Half a pixel is what 2 mm at 3 m allow.
     auto agrees = held(known(0.0));
     agrees.fire();
-    EXPECT_LT(figure(agrees, "contradiction_sigmas"), 0.0);
+    EXPECT_LT(agreement_figure(agrees, "contradiction_sigmas"), 0.0);
 }
 
 TEST(Agreement, AFocalLengthThatTheResultEstimatedIsApplied) {
@@ -187,7 +187,7 @@ TEST(Agreement, AFocalLengthThatTheResultEstimatedIsApplied) {
     const TwoBoards boards(1.02);
     auto without = held(with_focal, boards);
     without.fire();
-    EXPECT_GT(figure(without, "reprojection_rms_px"), 2.0);
+    EXPECT_GT(agreement_figure(without, "reprojection_rms_px"), 2.0);
 
     Diagnosis diagnosis;
     diagnosis.covariance_considered = with_focal.cameras[0].covariance;
@@ -195,7 +195,7 @@ TEST(Agreement, AFocalLengthThatTheResultEstimatedIsApplied) {
     with_focal.cameras[0].diagnosis = diagnosis;
     auto stage = held(with_focal, boards);
     stage.fire();
-    EXPECT_LT(figure(stage, "reprojection_rms_px"), 1e-9);
+    EXPECT_LT(agreement_figure(stage, "reprojection_rms_px"), 1e-9);
     const CameraExtrinsics& camera = stage.out<Extrinsics>("extrinsics").cameras.at(0);
     EXPECT_NEAR(camera.model.fx(), 918.0, 1e-9);
     ASSERT_TRUE(camera.diagnosis && camera.diagnosis->focal) << "the next one needs it too";
@@ -203,7 +203,7 @@ TEST(Agreement, AFocalLengthThatTheResultEstimatedIsApplied) {
     with_focal.cameras[0].diagnosis->focal->estimated = false;
     auto told_only = held(with_focal, boards);
     told_only.fire();
-    EXPECT_GT(figure(told_only, "reprojection_rms_px"), 2.0);
+    EXPECT_GT(agreement_figure(told_only, "reprojection_rms_px"), 2.0);
 }
 
 TEST(Agreement, OtherIntrinsicsInALaterSceneAreRefused) {

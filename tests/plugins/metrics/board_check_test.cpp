@@ -27,7 +27,7 @@ StageHarness check(const PlateWorld& world, const LidarBoards& boards) {
     return stage;
 }
 
-double figure(const StageHarness& stage, const std::string& name) {
+double shape_figure(const StageHarness& stage, const std::string& name) {
     for (const Metric& metric : stage.out<Metrics>("metrics").values)
         if (metric.name == "board_check." + name && metric.scene == "hall") return metric.value;
     ADD_FAILURE() << "no " << name;
@@ -43,17 +43,17 @@ TEST(BoardCheckStage, ARightBoardHasTheTargetsMeasures) {
     auto stage = check(world, world.boards());
     stage.fire();
     EXPECT_TRUE(found(stage).empty());
-    EXPECT_NEAR(figure(stage, "board_1.noise_mm"), 10.0, 0.5);
-    EXPECT_LT(figure(stage, "board_1.flatness_mm"),
+    EXPECT_NEAR(shape_figure(stage, "board_1.noise_mm"), 10.0, 0.5);
+    EXPECT_LT(shape_figure(stage, "board_1.flatness_mm"),
               0.6);  // 12 points a patch and more: 10 mm / sqrt(900)
     for (const char* axis : {"board_1.pitch_x", "board_1.pitch_y"})
-        EXPECT_LT(std::abs(figure(stage, axis + std::string("_percent"))),
-                  4.0 * figure(stage, axis + std::string("_sigma_percent")));
-    EXPECT_NEAR(figure(stage, "board_1.width_mm"), 500.0,
-                4.0 * figure(stage, "board_1.width_sigma_mm"));
-    EXPECT_NEAR(figure(stage, "board_1.height_mm"), 500.0,
-                4.0 * figure(stage, "board_1.height_sigma_mm"));
-    EXPECT_LT(figure(stage, "board_1.width_sigma_mm"), 3.0);
+        EXPECT_LT(std::abs(shape_figure(stage, axis + std::string("_percent"))),
+                  4.0 * shape_figure(stage, axis + std::string("_sigma_percent")));
+    EXPECT_NEAR(shape_figure(stage, "board_1.width_mm"), 500.0,
+                4.0 * shape_figure(stage, "board_1.width_sigma_mm"));
+    EXPECT_NEAR(shape_figure(stage, "board_1.height_mm"), 500.0,
+                4.0 * shape_figure(stage, "board_1.height_sigma_mm"));
+    EXPECT_LT(shape_figure(stage, "board_1.width_sigma_mm"), 3.0);
 }
 
 TEST(BoardCheckStage, ABentBoardIsNamed) {
@@ -63,7 +63,7 @@ TEST(BoardCheckStage, ABentBoardIsNamed) {
     stage.fire();
     ASSERT_EQ(found(stage).size(), 1U);
     EXPECT_THAT(found(stage)[0].reason, HasSubstr("hall: board 1 is bent: a bow of 1"));
-    EXPECT_NEAR(figure(stage, "board_1.bow_mm"), 12.0, 1.5);
+    EXPECT_NEAR(shape_figure(stage, "board_1.bow_mm"), 12.0, 1.5);
 }
 
 TEST(BoardCheckStage, HolesThatStandNearerThanTheFileSaysAreNamed) {
@@ -77,7 +77,7 @@ TEST(BoardCheckStage, HolesThatStandNearerThanTheFileSaysAreNamed) {
     EXPECT_THAT(found(stage)[0].reason,
                 AllOf(HasSubstr("nearer to each other in x"),
                       HasSubstr("the target file 'four_square_holes_500mm'")));
-    EXPECT_NEAR(figure(stage, "board_1.pitch_x_percent"), -4.0, 0.8);
+    EXPECT_NEAR(shape_figure(stage, "board_1.pitch_x_percent"), -4.0, 0.8);
 }
 
 /// The plane of the plate, from some of its points.
@@ -105,7 +105,7 @@ TEST(BoardCheckStage, ABoardOfAnotherSizeIsNamedThoughNoDetectorFoundIt) {
     EXPECT_THAT(found(stage)[0].reason,
                 AllOf(HasSubstr("hall: a plate of 0.45 x 0.45 m"), HasSubstr("stands at 3.0 m"),
                       HasSubstr("'four_square_holes_500mm' says 0.50 x 0.50 m")));
-    EXPECT_NEAR(figure(stage, "other_plate_1.width_mm"), 450.0, 5.0);
+    EXPECT_NEAR(shape_figure(stage, "other_plate_1.width_mm"), 450.0, 5.0);
 }
 
 TEST(BoardCheckStage, APlateWithoutHolesIsNoBoardOfAnotherSize) {

@@ -58,7 +58,8 @@ StageHarness scene_of(const std::vector<std::vector<OnPlane>>& planes) {
     return stage;
 }
 
-std::optional<double> told(StageHarness& stage, const std::string& name, const std::string& scene) {
+std::optional<double> plane_figure(StageHarness& stage, const std::string& name,
+                                   const std::string& scene) {
     for (const Metric& one : stage.out<Metrics>("metrics").values)
         if (one.name == "plane_points." + name && one.scene == scene) return one.value;
     return std::nullopt;
@@ -75,12 +76,12 @@ TEST(PlanePointsMetric, FiguresByHand) {
                            {{{0.25, 0.25, 0.5}, kBehind}}});  // another plane
     stage.fire();
     for (const char* scene : {"", "a"}) {
-        EXPECT_EQ(told(stage, "count", scene), 6.0);
-        EXPECT_EQ(told(stage, "board_count", scene), 3.0);
-        EXPECT_NEAR(*told(stage, "edge_share", scene), 2.0 / 3.0, 1e-12);
-        EXPECT_NEAR(*told(stage, "vacant_share", scene), 2.0 / 6.0, 1e-12);
-        EXPECT_EQ(told(stage, "least_side_count", scene), 0.0);
-        EXPECT_EQ(told(stage, "missed_boards", scene), 0.0);
+        EXPECT_EQ(plane_figure(stage, "count", scene), 6.0);
+        EXPECT_EQ(plane_figure(stage, "board_count", scene), 3.0);
+        EXPECT_NEAR(*plane_figure(stage, "edge_share", scene), 2.0 / 3.0, 1e-12);
+        EXPECT_NEAR(*plane_figure(stage, "vacant_share", scene), 2.0 / 6.0, 1e-12);
+        EXPECT_EQ(plane_figure(stage, "least_side_count", scene), 0.0);
+        EXPECT_EQ(plane_figure(stage, "missed_boards", scene), 0.0);
     }
 }
 
@@ -95,18 +96,18 @@ TEST(PlanePointsMetric, TheLeastSideIsThePoorestOfSixteen) {
                     points.push_back({{p.x(), p.y(), 0.0}, kOfBoard});
     auto stage = scene_of({points});
     stage.fire();
-    EXPECT_EQ(told(stage, "least_side_count", ""), 3.0);
+    EXPECT_EQ(plane_figure(stage, "least_side_count", ""), 3.0);
     points.pop_back();
     auto poorer = scene_of({points});
     poorer.fire();
-    EXPECT_EQ(told(poorer, "least_side_count", ""), 2.0);
+    EXPECT_EQ(plane_figure(poorer, "least_side_count", ""), 2.0);
 }
 
 TEST(PlanePointsMetric, WithoutPlanesEveryBoardIsMissed) {
     auto stage = scene_of({{{{0.0, 0.0, 5.0}, kBehind}}});
     stage.fire();
-    EXPECT_EQ(told(stage, "missed_boards", "a"), 1.0);
-    EXPECT_EQ(told(stage, "edge_share", "a"), std::nullopt);
+    EXPECT_EQ(plane_figure(stage, "missed_boards", "a"), 1.0);
+    EXPECT_EQ(plane_figure(stage, "edge_share", "a"), std::nullopt);
 }
 
 TEST(PlanePointsMetric, PlanesOfAnotherSceneAreRefused) {

@@ -28,7 +28,7 @@ StageHarness stillness(const PlateWorld& world) {
     return stage;
 }
 
-double told(const StageHarness& stage, const std::string& name) {
+double stillness_figure(const StageHarness& stage, const std::string& name) {
     for (const Metric& metric : stage.out<Metrics>("metrics").values)
         if (metric.name == "stillness." + name && metric.scene == "hall") return metric.value;
     ADD_FAILURE() << "no " << name;
@@ -43,8 +43,10 @@ TEST(Stillness, AStillBoardIsNeverNamed) {
         stage.fire();
         EXPECT_TRUE(stage.out<Metrics>("metrics").findings.empty()) << "seed " << seed;
         // 6 numbers of 10 pairs of splits: the largest is seldom above 4 sigma.
-        EXPECT_LT(told(stage, "board_1.motion_mm"), 4.5 * told(stage, "board_1.sigma_mm"));
-        EXPECT_NEAR(told(stage, "board_1.still_until_s"), 10.0, 1e-3);  // ticks of the clock
+        EXPECT_LT(stillness_figure(stage, "board_1.motion_mm"),
+                  4.5 * stillness_figure(stage, "board_1.sigma_mm"));
+        EXPECT_NEAR(stillness_figure(stage, "board_1.still_until_s"), 10.0,
+                    1e-3);  // ticks of the clock
     }
 }
 
@@ -60,8 +62,8 @@ TEST(Stillness, FiveMillimetresInTenSecondsAreNamedAlongEachAxis) {
         EXPECT_THAT(findings[0].reason, AllOf(HasSubstr("hall: board 1 moved"),
                                               HasSubstr("0.0-2.0 s"), HasSubstr("8.0-10.0 s")));
         // The first and the last split are 8 s apart: 4 mm; a corner may seem to move farther.
-        const double sigma = told(stage, "board_1.sigma_mm");
-        EXPECT_NEAR(told(stage, "board_1.motion_mm"), 4.0, 3.5 * sigma);
+        const double sigma = stillness_figure(stage, "board_1.sigma_mm");
+        EXPECT_NEAR(stillness_figure(stage, "board_1.motion_mm"), 4.0, 3.5 * sigma);
         EXPECT_LT(sigma, 1.0);
     }
 }
@@ -73,8 +75,8 @@ TEST(Stillness, TheStillPartIsTold) {
     auto stage = stillness(world);
     stage.fire();
     ASSERT_EQ(stage.out<Metrics>("metrics").findings.size(), 1U);
-    EXPECT_EQ(told(stage, "board_1.still_from_s"), 0.0);
-    EXPECT_NEAR(told(stage, "board_1.still_until_s"), 6.0, 1e-3);
+    EXPECT_EQ(stillness_figure(stage, "board_1.still_from_s"), 0.0);
+    EXPECT_NEAR(stillness_figure(stage, "board_1.still_until_s"), 6.0, 1e-3);
     EXPECT_THAT(stage.out<Metrics>("metrics").findings[0].reason,
                 HasSubstr("no motion is seen in 0.0-6.0 s"));
 }
