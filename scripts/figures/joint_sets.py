@@ -26,7 +26,9 @@ def patch(scene, duration):
         "boards": {"type": "metric.board_truth",
                    "in": {"truth": "scene.truth", "lidar": "lidar_boards.boards",
                           "image": "image_boards.boards"}},
-        "result": {"in": {"metrics": ["truth.metrics", "boards.metrics"]}},
+        "result": {"in": {"metrics": ["reprojection.metrics", "intrinsics.metrics",
+                                      "stillness.metrics", "board_check.metrics",
+                                      "truth.metrics", "boards.metrics"]}},
         "overlay": None}}
 
 

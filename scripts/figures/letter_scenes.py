@@ -83,7 +83,7 @@ def points_row(name, runs):
     unseen = sum(values(runs, "board_truth.image_missed"))
     false = sum(values(runs, "board_truth.lidar_false"))
     false_image = sum(values(runs, "board_truth.image_false"))
-    return (f"| {name} | {percent_range(runs, 'plane_points.edge_share')} | "
+    return (f"| {name} | {len(runs)} | {percent_range(runs, 'plane_points.edge_share')} | "
             f"{percent_range(runs, 'labels.before.vacant_share', 2)} | "
             f"{percent_range(runs, 'labels.after.vacant_share', 2)} | "
             f"{percent_range(runs, 'plane_points.vacant_share', 2)} | "
@@ -126,9 +126,9 @@ def main():
     runs = {name: [metrics_of(files) for files in each]
             for name, each in run_all(options, "letter.json", patches).items()}
 
-    print("| scene | near an edge, % | vacant before, % | behind filters, % | behind planes, % | at 5 cm, % "
+    print("| scene | captures | near an edge, % | vacant before, % | behind filters, % | behind planes, % | at 5 cm, % "
           "| poorest side, least / median | LiDAR boards | false | image boards | false |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for name, each in runs.items():
         print(points_row(name, each))
     print()
