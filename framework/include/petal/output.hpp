@@ -9,8 +9,8 @@
 namespace petal {
 
 /// Writes `content` to `path`, replacing what is there. For the path that Run::save and Run::output
-/// hand out. \throws WriteError naming the file (by the name that it gets in the end) when it cannot be
-/// opened, or the disk is full.
+/// hand out. \throws WriteError naming the file (by the name that it gets in the end) when it
+/// cannot be opened, or the disk is full.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// A file that appears whole or not at all. It is written under a temporary name in the same folder
@@ -18,7 +18,8 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// work); commit() flushes it to disk and renames it. Without commit() the destructor removes it.
 class PendingFile {
    public:
-    /// Makes the parent folders. \throws WriteError, naming the folder, when it cannot be written to.
+    /// Makes the parent folders. \throws WriteError, naming the folder, when it cannot be written
+    /// to.
     explicit PendingFile(std::filesystem::path final_path);
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;

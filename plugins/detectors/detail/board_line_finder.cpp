@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -50,6 +51,18 @@ std::size_t covered_lines(const HoleGrid& grid, const PatternScore& score, bool 
             lines.insert(vertical ? hole.right : hole.bottom);
     }
     return lines.size();
+}
+
+/// The fewest fifths that hold a point on all sides of a kind (left, right, upper, lower). The
+/// first and the last fifth of a side do not count: corners of the holes reach them.
+int fewest_of_a_kind(const HoleGrid& grid, const PatternScore& score) {
+    int fewest = std::numeric_limits<int>::max();
+    for (std::size_t kind = 0; kind < 4; ++kind) {
+        int covered = 0;
+        for (std::size_t h = 0; h < grid.holes.size(); ++h) covered += score.middles[4 * h + kind];
+        fewest = std::min(fewest, covered);
+    }
+    return fewest;
 }
 
 std::vector<Eigen::Vector2d> place_corners(const HoleGrid& grid, const PatternPose& pose) {
@@ -286,6 +299,17 @@ bool BoardFinder::accept(BoardAttempt& attempt, const PatternScore& score,
             grid_.side_count());
         attempt.threshold = printed("needed %zu + %zu lines and %zu sides (min_sides %.2f)",
                                     grid_.x.size(), grid_.y.size(), needed, params_.min_sides);
+        return false;
+    }
+    // With points on the lower sides only, say, a shift cannot be told from holes of another size.
+    constexpr int kNeeded = 2;
+    const int of_a_kind = fewest_of_a_kind(grid_, score);
+    if (of_a_kind < kNeeded) {
+        attempt.miss = printed(
+            "%zu of %zu hole sides covered, but all left, right, upper or lower ones in %d places "
+            "beside their corners",
+            sides, grid_.side_count(), of_a_kind);
+        attempt.threshold = printed("needed %d", kNeeded);
         return false;
     }
     if (in_holes > params_.max_hole_points) {

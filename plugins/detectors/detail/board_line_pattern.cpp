@@ -100,9 +100,14 @@ void PatternScorer::add(const Eigen::Vector2d& p_board) {
 PatternScore PatternScorer::score() const {
     PatternScore score = score_;
     for (const unsigned bits : fifths_) {
-        int set = 0;
-        for (int fifth = 0; fifth < kFifths; ++fifth) set += (bits >> fifth) & 1u ? 1 : 0;
+        int set = 0, middle = 0;
+        for (int fifth = 0; fifth < kFifths; ++fifth) {
+            if (((bits >> fifth) & 1u) == 0) continue;
+            ++set;
+            if (fifth > 0 && fifth < kFifths - 1) ++middle;
+        }
         score.coverages.push_back(static_cast<double>(set) / kFifths);
+        score.middles.push_back(middle);
     }
     const double points = static_cast<double>(score.rim + score.in_holes);
     score.value =

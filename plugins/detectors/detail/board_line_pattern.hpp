@@ -23,6 +23,7 @@ struct PatternPose {
 struct PatternScore {
     std::vector<int> counts;        ///< of each side (see SideHit): its points
     std::vector<double> coverages;  ///< of each side: share of its fifths that hold a point
+    std::vector<int> middles;       ///< of each side: its fifths but the first and the last that do
     std::size_t rim = 0;            ///< points on sides
     std::size_t in_holes = 0;       ///< points inside holes: they contradict
     double value = 0.0;             ///< mean coverage less in_holes / (rim + in_holes)
