@@ -88,8 +88,7 @@ TimeSplits time_splits(const Cloud& cloud, double shortest, std::size_t most, st
     const std::size_t count =
         std::min(most, static_cast<std::size_t>(std::floor(duration / shortest + 1e-3)));
     if (count < 2) {
-        why = "the capture lasts " + std::to_string(duration).substr(0, 4) +
-              " s, less than two splits";
+        why = printed("the capture lasts %.2f s, less than two splits", duration);
         return splits;
     }
     splits.length = duration / static_cast<double>(count);

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "metrics/detail/board_motion.hpp"
+#include "petal/printed.hpp"
 #include "petal/testing/stage_harness.hpp"
 #include "plugins/metrics/plate_world.hpp"
 
@@ -160,8 +161,7 @@ TEST(Stillness, ImagesOfTheFirstAndLastMomentAreCompared) {
         const Metrics moved = of_pictures(px);
         ASSERT_EQ(moved.findings.size(), 1U) << px;
         EXPECT_EQ(moved.findings[0].level, Level::weak);
-        char length[32];
-        std::snprintf(length, sizeof length, "moved %.1f mm", 2.5 * px);
+        const std::string length = printed("moved %.1f mm", 2.5 * px);
         EXPECT_THAT(moved.findings[0].reason,
                     AllOf(HasSubstr("image board 1 of camera 'CAMERA'"), HasSubstr(length),
                           HasSubstr("the first and the last image, 10.0 s apart")));
