@@ -11,6 +11,8 @@
 #include "metrics/detail/plate_rays.hpp"
 #include "metrics/detail/shown_edges.hpp"
 
+#include "petal/printed.hpp"
+
 namespace petal {
 namespace {
 
