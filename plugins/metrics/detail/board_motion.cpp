@@ -10,7 +10,6 @@
 #include "metrics/detail/plate_edges.hpp"
 #include "metrics/detail/plate_rays.hpp"
 #include "metrics/detail/shown_edges.hpp"
-
 #include "petal/printed.hpp"
 
 namespace petal {
