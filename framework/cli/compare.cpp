@@ -20,7 +20,7 @@ namespace petal::cli {
 
 namespace {
 
-struct Options {
+struct CompareOptions {
     std::vector<std::filesystem::path> files;
     std::string out;
     std::vector<std::string> with;
@@ -41,7 +41,7 @@ int told(const std::vector<Problem>& problems) {
 }
 
 /// One file is a comparison; several are pipelines, against the first of them.
-std::optional<compare::Comparison> read(const Options& options, int& code) {
+std::optional<compare::Comparison> read(const CompareOptions& options, int& code) {
     if (options.files.size() > 1) return compare::quick_comparison(options.files);
     auto checked = compare::read_comparison(options.files.front());
     if (!checked.comparison) code = told(checked.problems);
@@ -57,7 +57,7 @@ int told_of_pipelines(const compare::Plan& plan, const PluginSet& plugins) {
     return kMissingPlugin;
 }
 
-int run_planned(const Options& options, const GlobalOptions& global,
+int run_planned(const CompareOptions& options, const GlobalOptions& global,
                 const compare::Comparison& comparison, const compare::Plan& plan,
                 const PluginSet& plugins, compare::FileSums& sums) {
     const compare::OutFolder out(options.out.empty() ? default_run_folder(comparison.name)
@@ -92,7 +92,7 @@ int run_planned(const Options& options, const GlobalOptions& global,
     return kRunFailed;
 }
 
-int compare_command(Options& options, const GlobalOptions& global) {
+int compare_command(CompareOptions& options, const GlobalOptions& global) {
     // A limit on the size of files is an error of the write, like a full disk, not the end.
     std::signal(SIGXFSZ, SIG_IGN);
     end_on_interrupt();
@@ -119,7 +119,7 @@ int compare_command(Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_compare(CLI::App& app, const GlobalOptions& global, Action& action) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand(
         "compare", "compare variants of a pipeline over data and seeds: which is better, how sure");
     command

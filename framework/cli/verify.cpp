@@ -22,7 +22,7 @@ struct VerifyOptions : PipelineOptions {
 fs::path shipped_pipeline() {
     std::error_code failed;
     const fs::path program = fs::canonical("/proc/self/exe", failed);
-    const fs::path file =
+    fs::path file =
         program.parent_path().parent_path() / "share" / "petal" / "pipelines" / "verify.json";
     if (failed || !fs::is_regular_file(file, failed))
         throw Error("the pipeline " + file.string() +

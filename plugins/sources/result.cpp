@@ -67,7 +67,7 @@ Matrix6d covariance_of(const JsonValue& value) {
     const double largest = matrix.cwiseAbs().maxCoeff();
     if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kSymmetric * largest)
         value.fail("must be a covariance: it is not symmetric");
-    const Matrix6d symmetric = 0.5 * (matrix + matrix.transpose());
+    Matrix6d symmetric = 0.5 * (matrix + matrix.transpose());
     const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric, Eigen::EigenvaluesOnly);
     if (eigen.eigenvalues().minCoeff() < -kSymmetric * largest)
         value.fail("must be a covariance: it has a negative variance");

@@ -140,6 +140,7 @@ bool CornerFit::intersect(const std::vector<SideLine>& lines, const std::vector<
         board.covariance[c] = 0.5 * (covariance + covariance.transpose());
     }
     std::vector<MeasuredSide> measured;
+    measured.reserve(lines.size());
     for (const SideLine& line : lines) measured.push_back(line.own);
     board.joint_covariance =
         corner_covariance(layout_, h, measured, crossings, scatter, board.hole_inset, board.wall);

@@ -34,7 +34,7 @@ double closest(const std::vector<Eigen::Vector2d>& corners) {
 }
 
 cv::Mat grey_of(const CameraImage& image) {
-    const cv::Mat pixels = image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    cv::Mat pixels = image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
     if (pixels.channels() != 3) return pixels;
     cv::Mat grey;
     cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);

@@ -16,9 +16,9 @@
 namespace petal {
 namespace {
 
-constexpr double kCell = 0.01;                     // m
-constexpr double kDepth = 0.03;                    // m along the ray: nearer to the plane is on it
-constexpr double kSmallest = 0.6, kLargest = 1.6;  // times the target's size
+constexpr double kCell = 0.01;   // m
+constexpr double kDepth = 0.03;  // m along the ray: nearer to the plane is on it
+constexpr double kSmallestScale = 0.6, kLargestScale = 1.6;  // times the target's size
 constexpr double kProportion = 0.12;  // relative: width over height against the target's
 constexpr double kAgreement = 0.8;    // share of rays that the scaled target must explain
 constexpr double kBeyondHalf = 0.52;  // a plate that fills this much is no frame
@@ -129,7 +129,7 @@ std::optional<OtherPlate> look(const PlaneView& view, const Target& target) {
         }
         const double by_width = along / target.width(), by_height = across / target.height();
         const double scale = std::sqrt(by_width * by_height);
-        if (scale < kSmallest || scale > kLargest ||
+        if (scale < kSmallestScale || scale > kLargestScale ||
             std::abs(std::log(by_width / by_height)) > kProportion)
             continue;
         // The box is a few per cent too large or too small: the holes' pattern tells the rest.
@@ -170,7 +170,7 @@ void measure(OtherPlate& plate, const Cloud& cloud, const Target& target) {
 std::vector<OtherPlate> other_plates(const Cloud& cloud, const Planes& planes,
                                      const Target& target) {
     std::vector<OtherPlate> plates;
-    const double reach = kLargest * std::hypot(target.width(), target.height());
+    const double reach = kLargestScale * std::hypot(target.width(), target.height());
     for (const Plane& plane : planes.planes) {
         const auto view = view_of(cloud, plane, reach);
         if (!view) continue;

@@ -17,7 +17,7 @@
 namespace petal {
 namespace {
 
-constexpr std::size_t kFewestPairs = 4;  // three leave up to four poses
+constexpr std::size_t kFewestPoints = 4;  // three leave up to four poses
 
 /// What one camera saw of one scene.
 struct SeenScene {
@@ -215,7 +215,7 @@ JointInputs joint_inputs(const std::vector<Packet<Correspondences>>& packets,
     std::vector<Group> groups;
     for (SolveInput& camera : gather(packets)) {
         if (wanted && !wanted(camera)) continue;
-        if (camera.pairs.size() < kFewestPairs) {
+        if (camera.pairs.size() < kFewestPoints) {
             result.too_few.push_back(std::move(camera));
             continue;
         }

@@ -108,7 +108,7 @@ std::string Contest::why_not_data() const {
     // One board alone maps onto itself, exactly or nearly: whatever its residuals prefer is noise.
     if (best().matches.size() == 1) return "one board looks the same in each of its rotations";
     const auto mine = chi2(best());
-    const std::string untold = "a chi-square cannot be told (a covariance is none)";
+    std::string untold = "a chi-square cannot be told (a covariance is none)";
     if (!mine) return untold;
     const BoardOrder* other = best_other(rivals_, best());
     if (other == nullptr) return "";

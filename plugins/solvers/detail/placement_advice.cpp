@@ -255,7 +255,7 @@ std::optional<Diagnosis::Advice> advise_placement(const JointModel& model,
                         // A hair's breadth is rounding, not a better place.
                         if (after.worst(params) >= best * (1.0 - 1e-6)) continue;
                         best = after.worst(params);
-                        advice.emplace();
+                        advice = Diagnosis::Advice();
                         advice->sentence =
                             std::string("a board ") + kPlaces[row][column] + " of the image, " +
                             turned_text(pitch, yaw) + printed(", at %g m: ", range) +
