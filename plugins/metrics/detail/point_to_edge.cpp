@@ -50,6 +50,7 @@ std::vector<double> point_to_edge(const CameraModel& model, const Eigen::Isometr
     std::vector<std::vector<Eigen::Vector2d>> in_image;
     for (const auto& hole : holes_by_corner(target)) {
         std::vector<Eigen::Vector2d> ring;
+        ring.reserve(hole.size());
         for (const std::size_t k : hole) ring.push_back(image_of[k]);
         in_image.push_back(std::move(ring));
     }
