@@ -223,7 +223,7 @@ The true upper side the LiDAR cannot tell: a square board looks alike in four or
     s.param("min_side_coverage", &Params::min_side_coverage)
         .unit("1")
         .within(0.0, 1.0)
-        .doc("a side counts where this share of its fifths holds a point");
+        .doc("a side counts where this share of its fifths, 18 mm off its ends, holds a point");
     s.param("min_sides", &Params::min_sides)
         .unit("1")
         .within(0.0, 1.0)
@@ -238,6 +238,12 @@ The true upper side the LiDAR cannot tell: a square board looks alike in four or
         .doc(
             "the most RMS distance of a board's points from its holes' sides; with the spacing "
             "only");
+    s.param("max_side_offset", &Params::max_side_offset)
+        .unit("m")
+        .within(0.0, 1.0)
+        .doc(
+            "no board where the sides, each as a whole, scatter by more about the target's (1 "
+            "sigma): its holes stand otherwise than the target file says");
 }
 
 void BoardLines::run(Run& run) {

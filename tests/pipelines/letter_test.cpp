@@ -18,7 +18,7 @@ class Letter : public PetalProcess {
         PetalProcess::SetUp();
         const Ended ended = petal(
             "run " + pipeline("simulate.json") +
-            " --set 'scene.scenes=[\"indoor_four_boards\"]' --set scene.duration=10 --out data");
+            " --set 'scene.scenes=[\"indoor_four_boards\"]' --set scene.duration=6 --out data");
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
     json calibrated(const std::string& options, const std::string& out) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -51,18 +50,6 @@ std::size_t covered_lines(const HoleGrid& grid, const PatternScore& score, bool 
             lines.insert(vertical ? hole.right : hole.bottom);
     }
     return lines.size();
-}
-
-/// The fewest fifths that hold a point on all sides of a kind (left, right, upper, lower). The
-/// first and the last fifth of a side do not count: corners of the holes reach them.
-int fewest_of_a_kind(const HoleGrid& grid, const PatternScore& score) {
-    int fewest = std::numeric_limits<int>::max();
-    for (std::size_t kind = 0; kind < 4; ++kind) {
-        int covered = 0;
-        for (std::size_t h = 0; h < grid.holes.size(); ++h) covered += score.middles[4 * h + kind];
-        fewest = std::min(fewest, covered);
-    }
-    return fewest;
 }
 
 std::vector<Eigen::Vector2d> place_corners(const HoleGrid& grid, const PatternPose& pose) {
@@ -173,6 +160,14 @@ void BoardFinder::fit_spaced(BoardAttempt& attempt, const std::vector<ScoredPatt
         attempt.miss = printed("a board whose points lie %.1f mm (RMS) off its holes' sides",
                                best->line_rms * 1e3);
         attempt.threshold = printed("max_line_rms %.1f mm", params_.max_line_rms * 1e3);
+        return;
+    }
+    if (best->line_common > params_.max_side_offset) {
+        attempt.miss = printed(
+            "a board whose sides, each as a whole, lie %.1f mm (1 sigma) off the target's: its "
+            "holes stand otherwise",
+            best->line_common * 1e3);
+        attempt.threshold = printed("max_side_offset %.1f mm", params_.max_side_offset * 1e3);
         return;
     }
     board.covariance = best->covariance;
@@ -299,17 +294,6 @@ bool BoardFinder::accept(BoardAttempt& attempt, const PatternScore& score,
             grid_.side_count());
         attempt.threshold = printed("needed %zu + %zu lines and %zu sides (min_sides %.2f)",
                                     grid_.x.size(), grid_.y.size(), needed, params_.min_sides);
-        return false;
-    }
-    // With points on the lower sides only, say, a shift cannot be told from holes of another size.
-    constexpr int kNeeded = 2;
-    const int of_a_kind = fewest_of_a_kind(grid_, score);
-    if (of_a_kind < kNeeded) {
-        attempt.miss = printed(
-            "%zu of %zu hole sides covered, but all left, right, upper or lower ones in %d places "
-            "beside their corners",
-            sides, grid_.side_count(), of_a_kind);
-        attempt.threshold = printed("needed %d", kNeeded);
         return false;
     }
     if (in_holes > params_.max_hole_points) {

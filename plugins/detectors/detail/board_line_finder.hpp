@@ -35,6 +35,7 @@ struct BoardFinderParams {
     double min_sides = 0.75;
     double max_hole_points = 0.1;
     double max_line_rms = 0.012;
+    double max_side_offset = 0.008;
 };
 
 /// One search for a board among the points of one plane: what was seen and, where it failed, why.

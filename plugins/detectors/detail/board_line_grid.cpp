@@ -112,7 +112,8 @@ SideHit find_side(const HoleGrid& grid, const Eigen::Vector2d& inflation, const 
             nearest = std::abs(across[side]);
             hit.side = static_cast<int>(4 * h) + side;
             hit.across = across[side];
-            hit.along = side < 2 ? (p.y() - top) / (bottom - top) : (p.x() - left) / (right - left);
+            hit.along = side < 2 ? p.y() - top : p.x() - left;
+            hit.length = side < 2 ? bottom - top : right - left;
         }
         hit.in_hole = hit.side < 0 && across[0] > tolerance && across[1] < -tolerance &&
                       across[2] > tolerance && across[3] < -tolerance;

@@ -51,7 +51,8 @@ struct HoleGrid {
 /// Where a point of the board's plane lies with respect to the sides of the holes.
 struct SideHit {
     int side = -1;         ///< 4 * hole + 0 left, 1 right, 2 top, 3 bottom; -1 for none
-    double along = 0.0;    ///< 0 to 1 along the side
+    double along = 0.0;    ///< m along the side, from its left or upper end
+    double length = 0.0;   ///< of the side, m
     double across = 0.0;   ///< coordinate less that of the side's line, m
     bool in_hole = false;  ///< inside a hole, farther than the tolerance from its sides
 };

@@ -19,7 +19,7 @@ constexpr int kMaxSteps = 5000;            ///< 20 m of shifts: farther points a
 constexpr double kLineTolerance = 0.008;   ///< m: a point is on a line of the pattern
 constexpr double kPointTolerance = 0.018;  ///< m: a point is on a side, before the refinement
 constexpr double kShiftStep = 0.004;       ///< m
-constexpr double kSameShift = 0.02;        ///< m: two placements are one
+constexpr double kSameShift = 0.02;        ///< m of shift and inflation: two placements are one
 constexpr std::size_t kPlacements = 10;    ///< of each direction, before both are scored together
 
 /// Where the pattern of one direction may lie: its zero is at `shift`.
@@ -61,7 +61,9 @@ std::vector<Placement> place_lines(const std::vector<HoleGrid::Line>& pattern,
     for (const Placement& placement : all) {
         if (kept.size() == kPlacements) break;
         if (std::none_of(kept.begin(), kept.end(), [&](const Placement& other) {
-                return std::abs(other.shift - placement.shift) < kSameShift;
+                return std::abs(other.shift - placement.shift) +
+                           std::abs(other.inflation - placement.inflation) <
+                       kSameShift;
             }))
             kept.push_back(placement);
     }
@@ -91,23 +93,19 @@ void PatternScorer::add(const Eigen::Vector2d& p_board) {
     const SideHit hit = find_side(grid_, inflation_, p_board, tolerance_);
     if (hit.in_hole) ++score_.in_holes;
     if (hit.side < 0) return;
-    const int fifth = std::clamp(static_cast<int>(hit.along * kFifths), 0, kFifths - 1);
-    fifths_[static_cast<std::size_t>(hit.side)] |= 1u << fifth;
     ++score_.counts[static_cast<std::size_t>(hit.side)];
     ++score_.rim;
+    const double inner = (hit.along - kPointTolerance) / (hit.length - 2.0 * kPointTolerance);
+    if (!(inner >= 0.0 && inner < 1.0)) return;
+    fifths_[static_cast<std::size_t>(hit.side)] |= 1u << static_cast<int>(inner * kFifths);
 }
 
 PatternScore PatternScorer::score() const {
     PatternScore score = score_;
     for (const unsigned bits : fifths_) {
-        int set = 0, middle = 0;
-        for (int fifth = 0; fifth < kFifths; ++fifth) {
-            if (((bits >> fifth) & 1u) == 0) continue;
-            ++set;
-            if (fifth > 0 && fifth < kFifths - 1) ++middle;
-        }
+        int set = 0;
+        for (int fifth = 0; fifth < kFifths; ++fifth) set += (bits >> fifth) & 1u ? 1 : 0;
         score.coverages.push_back(static_cast<double>(set) / kFifths);
-        score.middles.push_back(middle);
     }
     const double points = static_cast<double>(score.rim + score.in_holes);
     score.value =

@@ -21,12 +21,13 @@ struct PatternPose {
 
 /// How well points support the sides of a board's holes.
 struct PatternScore {
-    std::vector<int> counts;        ///< of each side (see SideHit): its points
-    std::vector<double> coverages;  ///< of each side: share of its fifths that hold a point
-    std::vector<int> middles;       ///< of each side: its fifths but the first and the last that do
-    std::size_t rim = 0;            ///< points on sides
-    std::size_t in_holes = 0;       ///< points inside holes: they contradict
-    double value = 0.0;             ///< mean coverage less in_holes / (rim + in_holes)
+    std::vector<int> counts;  ///< of each side (see SideHit): its points
+    /// Of each side: share of its fifths that hold a point; of that part of it where no point can
+    /// be another side's (the tolerance off its ends).
+    std::vector<double> coverages;
+    std::size_t rim = 0;       ///< points on sides
+    std::size_t in_holes = 0;  ///< points inside holes: they contradict
+    double value = 0.0;        ///< mean coverage less in_holes / (rim + in_holes)
 
     double coverage() const;  ///< mean over the sides
     std::size_t sides_covered(double min_coverage) const;

@@ -15,7 +15,7 @@
 namespace petal {
 
 struct RefinementLimits {
-    bool model_walls = true;     ///< the plate's thickness shows in the holes
+    bool model_walls = false;    ///< the plate's thickness shows in the holes
     double tolerance = 0.001;    ///< m, 1 sigma: how straight and in place the hole sides are cut
     double min_contrast = 0.15;  ///< (plate - holes) / plate
     double min_plate_fraction =

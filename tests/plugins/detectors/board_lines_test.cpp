@@ -89,6 +89,52 @@ StageHarness detect(const Cloud& cloud, std::uint64_t seed, bool spacing = true)
     return boards;
 }
 
+/// A board hung close before a wall: the left and right sides are whole, of the upper and lower
+/// ones there are pieces.
+std::vector<Eigen::Vector3d> board_on_a_wall(const Eigen::Isometry3d& pose, Rng& rng) {
+    std::vector<Eigen::Vector3d> points;
+    const auto piece = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b, int count) {
+        for (int i = 0; i < count; ++i) {
+            const Eigen::Vector2d p = a + (b - a) * uniform(rng, 0.0, 1.0);
+            points.push_back(pose * Eigen::Vector3d(p.x() + normal(rng, 0.004),
+                                                    p.y() + normal(rng, 0.004),
+                                                    normal(rng, 0.004)));
+        }
+    };
+    piece({0.0, 0.0}, {0.0, 0.5}, 100);
+    piece({0.5, 0.0}, {0.5, 0.5}, 200);
+    for (const double x : {0.09, 0.21, 0.29, 0.41})
+        for (const double y : {0.1, 0.3}) piece({x, y}, {x, y + 0.1}, 35);
+    piece({0.12, 0.09}, {0.2, 0.09}, 30);    // upper sides
+    piece({0.36, 0.29}, {0.41, 0.29}, 20);   //
+    piece({0.18, 0.21}, {0.21, 0.21}, 8);    // lower sides
+    piece({0.33, 0.21}, {0.35, 0.21}, 10);   //
+    piece({0.39, 0.21}, {0.41, 0.21}, 10);   //
+    piece({0.18, 0.41}, {0.21, 0.41}, 10);   //
+    piece({0.29, 0.405}, {0.37, 0.41}, 30);  //
+    return points;
+}
+
+// Corners of the holes once counted as points of sides that had none, and the board was placed by
+// its lower sides alone, 2 cm off, with a sigma of 1 mm. 3 mm: three sigma of the pieces.
+TEST(BoardLines, SidesWithoutPointsDoNotShiftABoard) {
+    int found = 0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        Rng rng(seed);
+        const Eigen::Isometry3d truth = board_pose(0.0, 0.1);
+        auto stage = detect(to_cloud(board_on_a_wall(truth, rng)), seed);
+        for (const LidarBoard& board : stage.out<LidarBoards>("boards").boards) {
+            ++found;
+            EXPECT_LT((board.T_lidar_board * Eigen::Vector3d(0.25, 0.25, 0.0) -
+                       truth * Eigen::Vector3d(0.25, 0.25, 0.0))
+                          .norm(),
+                      0.003)
+                << "seed " << seed;
+        }
+    }
+    EXPECT_GE(found, 5) << "half of them have points enough";
+}
+
 TEST(BoardLines, FindsTheKnownPoseAndTheInflation) {
     Rng rng(1);
     for (const double turn : {0.0, 0.3, -0.6}) {
