@@ -153,9 +153,10 @@ taken off. The covariance is scaled by max(1, chi-square / degrees of freedom), 
 **Robust loss** on a board's chi-square, beyond its 99 % point (16.8 for 6 numbers): of clean boards one in a
 hundred is touched at all, so the covariance stays true. `cauchy` touches all of them a little.
 
-**Two sigmas.** `covariance` takes intrinsics and ranges as exact; the considered one adds what a constant range
-offset, the focal length and the principal point do to the estimate, were they known only so well. The verdict
-judges the first: 1 px of principal point alone is 0.06 deg, so with the second nothing could ever be usable.
+**Two sigmas.** `covariance` holds the noise and what a constant range offset of the LiDAR does to the estimate,
+and takes the intrinsics as exact; the considered one adds what the focal length and the principal point do, were
+they known only so well. The verdict judges the first: 1 px of principal point alone is 0.06 deg, so with the
+second nothing could ever be usable.
 
 **Range offset.** All boards may lie too far by one and the same offset. It is a nuisance parameter, free but
 for `range_offset_allowance` times `range_offset_sigma`, so the weights know that the boards' common distance is

@@ -45,7 +45,7 @@ std::string drift_text(const std::vector<Diagnosis::Drift>& drifts) {
         considered += comma + printed("%.1f", drifts[i].considered_px);
     }
     return "; straight ahead at " + ranges + " m that is " + exact + " px (" + considered +
-           " px with the doubt in intrinsics and ranges)";
+           " px with the doubt in the intrinsics)";
 }
 
 class JointReport {
@@ -140,7 +140,7 @@ class JointReport {
         camera.order = input.order;
         camera.chi2 = uncertainty.chi2();
         camera.degrees_of_freedom = uncertainty.degrees_of_freedom();
-        camera.covariance = uncertainty.covariance(c);
+        camera.covariance = uncertainty.covariance(c, params_.range_offset_sigma);
         const Matrix6d column = column_covariance(camera);
         camera.sigma_translation = column.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
         camera.sigma_rotation = column.diagonal().tail<3>().cwiseMax(0.0).cwiseSqrt();
@@ -166,7 +166,8 @@ class JointReport {
                 {range, pixel_sigma(model, camera.covariance, range),
                  pixel_sigma(model, diagnosis.covariance_considered, range)});
         AdviceParams advice;
-        advice.range_offset_sigma = options_.range_offset_sigma;
+        advice.range_offset_sigma = params_.range_offset_sigma;
+        advice.allowed_range_offset = options_.range_offset_sigma;
         advice.variance_scale = diagnosis.variance_scale;
         advice.min_range = params_.advice_min_range;
         advice.max_range = params_.advice_max_range;
@@ -250,7 +251,7 @@ class JointReport {
         const TranslationPrior& prior = *options_.prior;
         const double distance = (camera.T_camera_lidar.translation() - prior.translation).norm();
         Diagnosis::Prior told{distance, distance / prior.sigma,
-                              uncertainty.covariance_without_prior(c)};
+                              uncertainty.covariance_without_prior(c, params_.range_offset_sigma)};
         // What the prior adds to the least sum of squares says whether it and the data agree.
         JointOptions data_only = options_;
         data_only.prior.reset();

@@ -72,23 +72,27 @@ Eigen::VectorXd JointUncertainty::offset_answer(const Eigen::MatrixXd& inverse) 
     return inverse.col(6 * static_cast<Eigen::Index>(layout_.cameras())) / range_offset_sigma_;
 }
 
-/// The estimate answers to the noise alone: without the share that the offset's own sigma has.
-Matrix6d JointUncertainty::exact_ranges(const Eigen::MatrixXd& inverse, std::size_t camera) const {
+/// What noise does, scaled as its chi-square demands, and what the offset does, of which the
+/// chi-square knows nothing; `inverse` holds the share of the offset that the weights allow for.
+Eigen::MatrixXd JointUncertainty::with_offset(const Eigen::MatrixXd& inverse,
+                                              double range_offset_sigma) const {
     const Eigen::VectorXd answer = offset_answer(inverse);
-    return pose_block(inverse - answer * answer.transpose(), camera);
+    const double share = range_offset_sigma / range_offset_sigma_;
+    return scale_ * inverse + (share * share - scale_) * answer * answer.transpose();
 }
 
-Matrix6d JointUncertainty::covariance(std::size_t camera) const {
-    return scale_ * exact_ranges(inverse_, camera);
+Matrix6d JointUncertainty::covariance(std::size_t camera, double range_offset_sigma) const {
+    return pose_block(with_offset(inverse_, range_offset_sigma), camera);
 }
 
 Matrix6d JointUncertainty::covariance_with_offset(std::size_t camera) const {
     return scale_ * pose_block(inverse_, camera);
 }
 
-Matrix6d JointUncertainty::covariance_without_prior(std::size_t camera) const {
+Matrix6d JointUncertainty::covariance_without_prior(std::size_t camera,
+                                                    double range_offset_sigma) const {
     const Eigen::MatrixXd normal = estimated_part(total_.normal - prior_.normal);
-    return scale_ * exact_ranges(inverse_information(normal), camera);
+    return pose_block(with_offset(inverse_information(normal), range_offset_sigma), camera);
 }
 
 Eigen::Matrix<double, 7, 7> JointUncertainty::information(std::size_t camera) const {
@@ -102,10 +106,7 @@ Eigen::Matrix<double, 7, 7> JointUncertainty::information(std::size_t camera) co
 
 Matrix6d JointUncertainty::covariance_considered(std::size_t camera,
                                                  const ConsiderParams& params) const {
-    const Eigen::VectorXd answer = offset_answer(inverse_);
-    const double share = params.range_offset_sigma / range_offset_sigma_;
-    Eigen::MatrixXd all = scale_ * (inverse_ - answer * answer.transpose()) +
-                          share * share * answer * answer.transpose();
+    Eigen::MatrixXd all = with_offset(inverse_, params.range_offset_sigma);
     const auto consider = [&](Eigen::Index parameter, double sigma) {
         // How the estimate answers to that parameter's error.
         const Eigen::VectorXd shift =

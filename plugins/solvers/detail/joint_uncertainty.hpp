@@ -32,13 +32,14 @@ class JointUncertainty {
     /// max(1, chi2 / degrees of freedom): every covariance below holds it.
     double variance_scale() const { return scale_; }
 
-    /// Of the pose of a camera, (rho, phi), intrinsics and ranges exact.
-    Matrix6d covariance(std::size_t camera) const;
-    Matrix6d covariance_without_prior(std::size_t camera) const;
-    /// The same where the range offset errs by the sigma that the weights took into account.
+    /// Of the pose of a camera, (rho, phi), intrinsics exact, where the LiDAR's range offset errs
+    /// by `range_offset_sigma` (m; 0: ranges exact, which leaves the noise alone).
+    Matrix6d covariance(std::size_t camera, double range_offset_sigma) const;
+    Matrix6d covariance_without_prior(std::size_t camera, double range_offset_sigma) const;
+    /// As the weights see it: with the sigma of the range offset that they allow for, scaled too.
     Matrix6d covariance_with_offset(std::size_t camera) const;
-    /// `covariance` with what `params` says of the range offset, and of each camera's focal length
-    /// (where it is not estimated) and principal point, as independent errors.
+    /// `covariance` with what `params` says of the range offset, and, as independent errors, of
+    /// each camera's focal length (where it is not estimated) and principal point.
     Matrix6d covariance_considered(std::size_t camera, const ConsiderParams& params) const;
 
     /// The focal length as it is estimated, or as one step from the solution would make it.
@@ -56,7 +57,7 @@ class JointUncertainty {
    private:
     Eigen::MatrixXd estimated_part(const Eigen::MatrixXd& normal) const;
     Eigen::VectorXd offset_answer(const Eigen::MatrixXd& inverse) const;
-    Matrix6d exact_ranges(const Eigen::MatrixXd& inverse, std::size_t camera) const;
+    Eigen::MatrixXd with_offset(const Eigen::MatrixXd& inverse, double range_offset_sigma) const;
 
     JointLayout layout_;
     std::vector<bool> free_focal_;

@@ -102,13 +102,16 @@ std::optional<BoardNoise> noise_of(const JointModel& model, const JointSolution&
     return noise;
 }
 
-/// Of the pose, ranges exact, of an estimate whose weights take the offset's sigma into account.
-Matrix6d pose_covariance(const Matrix7d& known, double range_offset_sigma) {
+/// Of the pose, as JointUncertainty::covariance() tells it.
+Matrix6d pose_covariance(const Matrix7d& known, const AdviceParams& params) {
+    const double allowed = params.allowed_range_offset;
     Matrix7d information = known;
-    information(6, 6) += 1.0 / (range_offset_sigma * range_offset_sigma);
+    information(6, 6) += 1.0 / (allowed * allowed);
     const Matrix7d inverse = inverse_information(information);
-    const Vector6d answer = inverse.topRightCorner<6, 1>() / range_offset_sigma;
-    return inverse.topLeftCorner<6, 6>() - answer * answer.transpose();
+    const Vector6d answer = inverse.topRightCorner<6, 1>() / allowed;
+    const double share = params.range_offset_sigma / allowed;
+    return params.variance_scale * inverse.topLeftCorner<6, 6>() +
+           (share * share - params.variance_scale) * answer * answer.transpose();
 }
 
 Matrix6d column_map(const Eigen::Isometry3d& T_camera_lidar) {
@@ -235,8 +238,7 @@ std::optional<Diagnosis::Advice> advise_placement(const JointModel& model,
     PlacementSearch search(projection, pose, solution.state.focal[camera], *noise);
     const Matrix6d map = column_map(pose);
     const auto sigmas = [&](const Matrix7d& information) {
-        return Sigmas(params.variance_scale * map *
-                      pose_covariance(information, params.range_offset_sigma) * map.transpose());
+        return Sigmas(map * pose_covariance(information, params) * map.transpose());
     };
     const Sigmas before = sigmas(known);
     double best = kWorthwhile * before.worst(params);

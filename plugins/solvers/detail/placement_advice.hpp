@@ -14,8 +14,9 @@ namespace petal {
 
 struct AdviceParams {
     double min_range = 2.0, max_range = 6.0;         ///< m, of the camera to the board's centre
-    double range_offset_sigma = 0.005;               ///< m
-    double variance_scale = 1.0;                     ///< of every covariance
+    double range_offset_sigma = 0.005;               ///< m: how well it is known
+    double allowed_range_offset = 0.01;              ///< m: 1 sigma of it, in the weights
+    double variance_scale = 1.0;                     ///< of what noise does
     double usable_sigma = 0.005;                     ///< m; what a sigma is counted in
     double usable_sigma_rotation = 0.06 / 57.29578;  ///< rad
 };

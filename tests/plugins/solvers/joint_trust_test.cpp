@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 
 #include "plugins/solvers/joint_scenes.hpp"
 #include "solvers/detail/joint_input.hpp"
@@ -21,6 +22,8 @@ namespace petal {
 namespace {
 
 using testing::JointScenes;
+
+const double kRangeOffsetSigma = ConsiderParams().range_offset_sigma;
 
 JointModel model_of(const Correspondences& scenes) {
     const Packet<Correspondences> packet{std::make_shared<Correspondences>(scenes), {}};
@@ -36,12 +39,14 @@ TEST(JointTrust, TheEllipsoidHoldsTheTruth) {
     int held = 0;
     Vector6d squares = Vector6d::Zero();
     double chi2 = 0.0, focal_squares = 0.0;
+    std::mt19937_64 rigs(1);
     for (int run = 0; run < kRuns; ++run) {
-        const JointModel model =
-            model_of(JointScenes::four_diverse().draw(static_cast<std::uint64_t>(run)));
+        JointScenes scenes = JointScenes::four_diverse();
+        scenes.range_offset = std::normal_distribution<double>(0.0, kRangeOffsetSigma)(rigs);
+        const JointModel model = model_of(scenes.draw(static_cast<std::uint64_t>(run)));
         const JointSolution solution = solution_of(model);
         const JointUncertainty uncertainty(model, {}, solution);
-        const Matrix6d covariance = uncertainty.covariance(0);
+        const Matrix6d covariance = uncertainty.covariance(0, kRangeOffsetSigma);
         const Vector6d error =
             se3_log(JointScenes::true_pose() * solution.state.T_camera_lidar[0].inverse());
         held += error.dot(covariance.llt().solve(error)) < 12.592;  // 95 % of chi-square with 6
@@ -99,12 +104,10 @@ TEST(JointTrust, WhatIsConsideredIsWhatItDoes) {
     const JointModel clean = model_of(scenes.draw(1));
     const JointSolution solution = solution_of(clean);
     const JointUncertainty uncertainty(clean, {}, solution);
-    const Matrix6d of_offset =
-        uncertainty.covariance_considered(0, ConsiderParams{0.005, 0.0, 0.0}) -
-        uncertainty.covariance(0);
+    const Matrix6d of_offset = uncertainty.covariance(0, 0.005) - uncertainty.covariance(0, 0.0);
     const Matrix6d of_focal =
         uncertainty.covariance_considered(0, ConsiderParams{0.0, 0.001, 0.0}) -
-        uncertainty.covariance(0);
+        uncertainty.covariance(0, 0.0);
     const auto shift_of = [&](const JointModel& model) {
         return se3_log(solution_of(model).state.T_camera_lidar[0] *
                        solution.state.T_camera_lidar[0].inverse());

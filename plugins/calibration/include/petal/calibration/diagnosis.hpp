@@ -14,13 +14,13 @@
 namespace petal {
 
 /// What a solver knows of the trust that one camera's extrinsics deserve, beside their covariance,
-/// which takes intrinsics and ranges as exact.
+/// which takes the intrinsics as exact.
 struct Diagnosis {
     using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-    /// The same covariance, were intrinsics and the LiDAR's range offset known only so well.
+    /// The same covariance, were the intrinsics known only so well.
     Matrix6d covariance_considered = Matrix6d::Zero();
-    double variance_scale = 1.0;  ///< the covariances hold it already; max(1, chi2 / dof)
+    double variance_scale = 1.0;  ///< of noise, max(1, chi2 / dof); the covariances hold it
 
     /// What one scene does to the result.
     struct Scene {
