@@ -5,11 +5,13 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "sinks/export.hpp"
 #include "sinks/overlay.hpp"
 #include "sinks/rawlog.hpp"
 #include "sinks/result.hpp"
 
 PETAL_PLUGIN("sinks", "0.1.0", [](petal::Registrar& r) {
+    r.add<petal::Export>("sink.export");
     r.add<petal::Overlay>("sink.overlay");
     r.add<petal::RawlogSink>("sink.rawlog");
     r.add<petal::ResultSink>("sink.result");
