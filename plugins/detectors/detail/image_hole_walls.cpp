@@ -13,6 +13,9 @@ namespace petal {
 namespace {
 
 constexpr double kLeastWall = 2e-4;  ///< m: less shifts no edge that one could measure
+/// A wall that is lit better than the front moves the edge by more than it shows: narrower than the
+/// blur, by (wall - hole) / (front - hole) of it.
+constexpr double kMostShare = 3.0;
 
 /// The camera's centre in the board frame: z < 0. None for a homography that no pose has.
 std::optional<Eigen::Vector3d> camera_centre(const Homography& board_to_ideal,
@@ -83,7 +86,7 @@ std::array<double, 2> HoleWalls::share(const std::vector<double>& shown,
         if (2.0 * mean < kLeastWall)
             share = 0.0;
         else
-            share = std::clamp(share + median_of(inset) / mean, 0.0, 1.0);
+            share = std::clamp(share + median_of(inset) / mean, 0.0, kMostShare);
     }
     return shares;
 }

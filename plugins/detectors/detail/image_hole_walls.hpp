@@ -29,10 +29,10 @@ class HoleWalls {
     /// 0 for sides that stand left and right of a hole, 1 for those above and below.
     int axis(std::size_t side) const;
 
-    /// How much of `shown` an edge in the image moves, 0 (a wall as dark as the hole) to 1, for
-    /// both axes: what makes the holes as wide as the target says. `insets` (m) is how much smaller
-    /// the holes look at each side than explained so far; sides that were not measured are not
-    /// used.
+    /// How much of `shown` an edge in the image moves, 0 (a wall as dark as the hole), 1 (as bright
+    /// as the front) or more, for both axes: what makes the holes as wide as the target says.
+    /// `insets` (m) is how much smaller the holes look at each side than explained so far; sides
+    /// that were not measured are not used.
     std::array<double, 2> share(const std::vector<double>& shown,
                                 const std::array<double, 2>& explained,
                                 const std::vector<double>& insets,
