@@ -12,6 +12,7 @@
 #include "filters/radius_outlier.hpp"
 #include "filters/sparse_points.hpp"
 #include "filters/statistical_outlier.hpp"
+#include "filters/still_points.hpp"
 #include "petal/calibration/observation.hpp"
 
 PETAL_PLUGIN("filters", "0.1.0", [](petal::Registrar& r) {
@@ -24,4 +25,5 @@ PETAL_PLUGIN("filters", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::RadiusOutlier>("filter.radius_outlier");
     r.add<petal::SparsePoints>("filter.sparse_points");
     r.add<petal::StatisticalOutlier>("filter.statistical_outlier");
+    r.add<petal::StillPoints>("filter.still_points");
 });

@@ -62,5 +62,25 @@ TEST_F(Calibrate, OneFlatBoardIsNoCalibration) {
     EXPECT_THAT(result["reasons"].dump(), HasSubstr("one board looks the same"));
 }
 
+TEST_F(Calibrate, OnlyTheStillPartOfACaptureIsUsedWhereAskedFor) {
+    std::ofstream(folder_ / "kicked.json")
+        << json{{"petal_scene", 1},
+                {"name", "kicked"},
+                {"about", "kicked at 4 s"},
+                {"based_on", "indoor_floor_3m"},
+                {"motion", {{"velocity", {0.0, 0.003, 0.0}}, {"begins", 4.0}}}};
+    const std::string scene = (folder_ / "kicked.json").string();
+    const auto drift = [&](const std::string& options) {
+        const json result = calibrated(scene, 8.0, 4, options);
+        EXPECT_THAT(result["reasons"].dump(), HasSubstr("board 1 moved"));
+        return result["metrics"]["truth.drift_px"].get<double>();
+    };
+    // 12 mm in the second half are 4 px; the image is one of the first half.
+    const double whole = drift("--seed 3");
+    const double still = drift("--seed 3 --with " + pipeline("variants/still_points.json"));
+    EXPECT_GT(whole, 0.8);
+    EXPECT_LT(still, 0.4) << "a placement of 4 s";
+}
+
 }  // namespace
 }  // namespace petal::testing
