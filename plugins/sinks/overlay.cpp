@@ -3,13 +3,11 @@
 
 #include "sinks/overlay.hpp"
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "petal/calibration/boards.hpp"
-#include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
@@ -17,48 +15,11 @@
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/picture_file.hpp"
 #include "sinks/detail/overlay_canvas.hpp"
+#include "sinks/detail/scene_view.hpp"
 
 namespace petal {
 
 namespace {
-
-/// Everything known of one scene; null where the pipeline does not wire it.
-struct SceneView {
-    std::string name;
-    std::shared_ptr<const Images> images;
-    std::shared_ptr<const Cloud> cloud;
-    std::shared_ptr<const ImageBoards> image_boards;
-    std::shared_ptr<const LidarBoards> lidar_boards;
-    std::vector<const CameraPairs*> pairs;
-};
-
-/// `correspondences` must outlive what is returned.
-std::map<std::uint64_t, SceneView> scenes_of(
-    const Run& run, const std::vector<Packet<Correspondences>>& correspondences) {
-    std::map<std::uint64_t, SceneView> scenes;
-    for (const auto& packet : run.all<Images>("images")) {
-        SceneView& scene = scenes[packet.frame.number];
-        scene.images = packet.value;
-        scene.name = packet.frame.name.empty() ? "scene_" + std::to_string(packet.frame.number)
-                                               : packet.frame.name;
-    }
-    for (const auto& packet : run.all<Cloud>("cloud"))
-        scenes[packet.frame.number].cloud = packet.value;
-    for (const auto& packet : run.all<ImageBoards>("image_boards"))
-        scenes[packet.frame.number].image_boards = packet.value;
-    for (const auto& packet : run.all<LidarBoards>("lidar_boards"))
-        scenes[packet.frame.number].lidar_boards = packet.value;
-    for (const auto& packet : correspondences)
-        for (const CameraPairs& pairs : packet->cameras)
-            scenes[pairs.scene].pairs.push_back(&pairs);
-    return scenes;
-}
-
-const CameraExtrinsics* extrinsics_of(const Extrinsics& extrinsics, const std::string& camera) {
-    for (const CameraExtrinsics& solved : extrinsics.cameras)
-        if (solved.camera == camera) return &solved;
-    return nullptr;
-}
 
 /// The picture's name, which no other of the run has: scenes may share a name, and "a_b" with "c"
 /// reads as "a" with "b_c".
@@ -68,23 +29,6 @@ std::string picture_name(const std::string& scene, const std::string& camera,
     std::string name = stem;
     for (int n = 2; !taken.insert(name).second; ++n) name = stem + "_" + std::to_string(n);
     return name + ".png";
-}
-
-void draw_camera(OverlayCanvas& canvas, const SceneView& scene, const CameraImage& image,
-                 const CameraExtrinsics* solved, const OverlayParams& params) {
-    if (solved != nullptr && scene.cloud)
-        canvas.draw_cloud(*scene.cloud, solved->T_camera_lidar,
-                          static_cast<std::size_t>(params.max_points));
-    if (scene.image_boards)
-        for (const ImageBoard& board : scene.image_boards->boards)
-            if (board.camera == image.label) canvas.draw_detected(board.corners);
-    if (solved != nullptr && scene.lidar_boards)
-        for (const LidarBoard& board : scene.lidar_boards->boards)
-            canvas.draw_projected(board.corners, solved->T_camera_lidar);
-    if (solved != nullptr)
-        for (const CameraPairs* pairs : scene.pairs)
-            if (pairs->camera == image.label)
-                canvas.draw_residuals(pairs->pairs, solved->T_camera_lidar, params.residual_scale);
 }
 
 }  // namespace
@@ -139,7 +83,8 @@ void Overlay::finish(Run& run) {
             const int automatic = image.image.getWidth() < kNarrow ? 2 : 1;
             OverlayCanvas canvas(image,
                                  params_.magnification > 0 ? params_.magnification : automatic);
-            draw_camera(canvas, scene, image, solved, params_);
+            draw_scene(canvas, scene, scene.cloud.get(), image.label, solved,
+                       static_cast<std::size_t>(params_.max_points), params_.residual_scale);
             if (solved == nullptr) {
                 canvas.draw_caption("no extrinsics for this camera: detected corners only");
             } else {

@@ -8,12 +8,14 @@
 #include "sinks/export.hpp"
 #include "sinks/overlay.hpp"
 #include "sinks/rawlog.hpp"
+#include "sinks/report.hpp"
 #include "sinks/result.hpp"
 
 PETAL_PLUGIN("sinks", "0.1.0", [](petal::Registrar& r) {
     r.add<petal::Export>("sink.export");
     r.add<petal::Overlay>("sink.overlay");
     r.add<petal::RawlogSink>("sink.rawlog");
+    r.add<petal::Report>("sink.report");
     r.add<petal::ResultSink>("sink.result");
     r.on_thread_limit([](int threads) { cv::setNumThreads(threads); });
 });

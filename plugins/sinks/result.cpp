@@ -3,9 +3,6 @@
 
 #include "sinks/result.hpp"
 
-#include <memory>
-#include <utility>
-
 #include "petal/calibration/boards.hpp"
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
@@ -40,6 +37,10 @@ void ResultSink::describe(Spec<Params>& s) {
         "its "
         "level, one of a board detector makes the result weak at most. Their words follow the "
         "solver's among `reasons`; the run is told the same verdict, so its exit code agrees.\n\n"
+        "`residuals` are measured less projected, raw pixels: `u_px` and `v_px` are the smallest, "
+        "lower "
+        "quartile, median, upper quartile and largest along each axis of the image, in total, by "
+        "camera and by scene.\n\n"
         "The same seed and data give the same bytes, so the file holds no time and no path.");
     s.reads<Extrinsics>("extrinsics", "what a solver found");
     s.gathers<Correspondences>("correspondences", "the pairs of all scenes, for the boards")
@@ -57,14 +58,9 @@ void ResultSink::finish(Run& run) {
     input.lidar_boards = run.all<LidarBoards>("lidar_boards");
     input.image_boards = run.all<ImageBoards>("image_boards");
     input.metrics = run.all<Metrics>("metrics");
-    const Judgement found = found_by_checks(input);
-    if (!found.reasons.empty()) {
-        // The solver told its own level and reasons already: here come those of the checks alone.
-        run.verdict(found.level, found.reasons);
-        auto judged = std::make_shared<Extrinsics>(*input.extrinsics);
-        lower(*judged, found);
-        input.extrinsics = std::move(judged);
-    }
+    const Judgement found = judge(input);
+    // The solver told its own level and reasons already: here come those of the checks alone.
+    if (!found.reasons.empty()) run.verdict(found.level, found.reasons);
     const std::string text = result_json(input);
     run.output(params_.file.string(),
                [&text](const std::filesystem::path& path) { write_file(path, text); });

@@ -4,6 +4,8 @@
 #include "sinks/detail/findings.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace petal {
 namespace {
@@ -34,6 +36,15 @@ Judgement found_by_checks(const ResultInput& input) {
         }
     add_findings(input.lidar_boards, found);
     add_findings(input.image_boards, found);
+    return found;
+}
+
+Judgement judge(ResultInput& input) {
+    Judgement found = found_by_checks(input);
+    if (found.reasons.empty()) return found;
+    auto judged = std::make_shared<Extrinsics>(*input.extrinsics);
+    lower(*judged, found);
+    input.extrinsics = std::move(judged);
     return found;
 }
 

@@ -22,6 +22,10 @@ struct Judgement {
 /// where there are several, and make the result weak.
 Judgement found_by_checks(const ResultInput& input);
 
+/// Lowers the verdict of the input's extrinsics (a changed copy of them) by what checks found,
+/// which is returned.
+Judgement judge(ResultInput& input);
+
 /// Lowers the level to that of the findings, and adds their reasons behind its own.
 void lower(Extrinsics& extrinsics, const Judgement& found);
 

@@ -57,9 +57,14 @@ cv::Scalar depth_colour(double fraction) {
 
 }  // namespace
 
-OverlayCanvas::OverlayCanvas(const CameraImage& image, int magnification)
-    : model_(image.camera), magnification_(magnification) {
-    const cv::Mat photo = image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+OverlayCanvas::OverlayCanvas(const CameraImage& image, int magnification, int line_width,
+                             const cv::Rect& part)
+    : model_(image.camera),
+      magnification_(magnification),
+      line_width_(line_width),
+      begin_(part.tl()) {
+    const cv::Mat whole = image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    const cv::Mat photo = part.empty() ? whole : whole(part);
     cv::Mat colour;
     if (photo.channels() == 1) {
         cv::cvtColor(photo, colour, cv::COLOR_GRAY2BGR);
@@ -77,16 +82,16 @@ cv::Point OverlayCanvas::at(const Eigen::Vector2d& pixel) const {
     const auto fixed = [m](double value) {
         return static_cast<int>(std::lround(((value + 0.5) * m - 0.5) * (1 << kShift)));
     };
-    return {fixed(pixel.x()), fixed(pixel.y())};
+    return {fixed(pixel.x() - begin_.x), fixed(pixel.y() - begin_.y)};
 }
 
 void OverlayCanvas::draw_cloud(const Cloud& cloud, const Eigen::Isometry3d& T_camera_lidar,
-                               std::size_t max_points) {
+                               std::size_t max_points, double dot) {
     const std::vector<Dot> dots = project_cloud(cloud, T_camera_lidar, model_, max_points);
     if (dots.empty()) return;
     std::vector<double> ranges;
     ranges.reserve(dots.size());
-    for (const Dot& dot : dots) ranges.push_back(dot.range);
+    for (const Dot& one : dots) ranges.push_back(one.range);
     // The 5 % and 95 % ends, so that one far point does not take the colours from all others.
     const auto quantile = [&ranges](double q) {
         const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(ranges.size() - 1));
@@ -95,17 +100,20 @@ void OverlayCanvas::draw_cloud(const Cloud& cloud, const Eigen::Isometry3d& T_ca
     };
     const double nearest = quantile(0.05);
     const double span = std::max(1e-6, quantile(0.95) - nearest);
-    for (const Dot& dot : dots)
-        cv::circle(picture_, at(dot.pixel), (magnification_ << kShift) / 2,
-                   depth_colour((dot.range - nearest) / span), cv::FILLED, cv::LINE_AA, kShift);
+    const int radius = static_cast<int>(dot * magnification_ * line_width_ * (1 << kShift) / 2.0);
+    for (const Dot& one : dots)
+        cv::circle(picture_, at(one.pixel), radius, depth_colour((one.range - nearest) / span),
+                   cv::FILLED, cv::LINE_AA, kShift);
 }
 
 void OverlayCanvas::draw_detected(const std::vector<Eigen::Vector2d>& corners) {
-    const int arm = (3 * magnification_ << kShift) / 2;
+    const int arm = (3 * magnification_ * line_width_ << kShift) / 2;
     for (const Eigen::Vector2d& corner : corners) {
         const cv::Point p = at(corner);
-        cv::line(picture_, {p.x - arm, p.y}, {p.x + arm, p.y}, kGreen, 1, cv::LINE_AA, kShift);
-        cv::line(picture_, {p.x, p.y - arm}, {p.x, p.y + arm}, kGreen, 1, cv::LINE_AA, kShift);
+        cv::line(picture_, {p.x - arm, p.y}, {p.x + arm, p.y}, kGreen, line_width_, cv::LINE_AA,
+                 kShift);
+        cv::line(picture_, {p.x, p.y - arm}, {p.x, p.y + arm}, kGreen, line_width_, cv::LINE_AA,
+                 kShift);
     }
 }
 
@@ -113,8 +121,8 @@ void OverlayCanvas::draw_projected(const std::vector<Eigen::Vector3d>& corners,
                                    const Eigen::Isometry3d& T_camera_lidar) {
     for (const Eigen::Vector3d& corner : corners)
         if (const auto pixel = model_.project(T_camera_lidar * corner))
-            cv::circle(picture_, at(*pixel), (2 * magnification_) << kShift, kRed, 1, cv::LINE_AA,
-                       kShift);
+            cv::circle(picture_, at(*pixel), (2 * magnification_ * line_width_) << kShift, kRed,
+                       line_width_, cv::LINE_AA, kShift);
 }
 
 void OverlayCanvas::draw_residuals(const std::vector<PointPair>& pairs,
@@ -122,7 +130,7 @@ void OverlayCanvas::draw_residuals(const std::vector<PointPair>& pairs,
     for (const PointPair& pair : pairs)
         if (const auto pixel = model_.project(T_camera_lidar * pair.lidar))
             cv::line(picture_, at(pair.image), at(pair.image + scale * (pair.image - *pixel)),
-                     kYellow, 1, cv::LINE_AA, kShift);
+                     kYellow, line_width_, cv::LINE_AA, kShift);
 }
 
 void OverlayCanvas::draw_caption(const std::string& text) {

@@ -17,14 +17,19 @@
 
 namespace petal {
 
-/// A photo, magnified, on which things given in raw pixels or in the LiDAR frame are drawn.
+/// A photo or a part of it, magnified, on which things given in raw pixels or in the LiDAR frame
+/// are drawn.
 class OverlayCanvas {
    public:
-    OverlayCanvas(const CameraImage& image, int magnification);
+    /// `line_width`, px of the picture, for one that will be shrunk: marks grow with it. `part`,
+    /// raw pixels, lies in the photo; the whole photo where it is empty.
+    OverlayCanvas(const CameraImage& image, int magnification, int line_width = 1,
+                  const cv::Rect& part = {});
 
     /// Points coloured by distance from the camera, those behind it left out.
+    /// `dot`: their diameter, as a share of a magnified pixel.
     void draw_cloud(const Cloud& cloud, const Eigen::Isometry3d& T_camera_lidar,
-                    std::size_t max_points);
+                    std::size_t max_points, double dot = 1.0);
     void draw_detected(const std::vector<Eigen::Vector2d>& corners);
     void draw_projected(const std::vector<Eigen::Vector3d>& corners,
                         const Eigen::Isometry3d& T_camera_lidar);
@@ -40,6 +45,8 @@ class OverlayCanvas {
 
     CameraModel model_;
     int magnification_;
+    int line_width_;
+    cv::Point begin_;  ///< the part's upper left pixel
     cv::Mat picture_;  ///< BGR
 };
 

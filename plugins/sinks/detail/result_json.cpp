@@ -13,6 +13,7 @@
 #include "petal/calibration/angles.hpp"
 #include "petal/printed.hpp"
 #include "sinks/detail/diagnosis_json.hpp"
+#include "sinks/detail/residuals_json.hpp"
 
 namespace petal {
 
@@ -79,49 +80,6 @@ std::map<std::uint64_t, std::string> scene_names(const ResultInput& input) {
     for (auto& [number, name] : names)
         if (name.empty()) name = "scene " + std::to_string(number);
     return names;
-}
-
-/// Running figures of residual lengths, px.
-struct ResidualSum {
-    std::size_t count = 0;
-    double sum = 0.0;
-    double squares = 0.0;
-    double largest = 0.0;
-
-    void add(double length) {
-        ++count;
-        sum += length;
-        squares += length * length;
-        largest = std::max(largest, length);
-    }
-    double rms() const {
-        return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
-    }
-    double mean() const { return count == 0 ? 0.0 : sum / static_cast<double>(count); }
-};
-
-Json residuals_json(const Extrinsics& extrinsics,
-                    const std::map<std::uint64_t, std::string>& names) {
-    ResidualSum total;
-    std::map<std::uint64_t, ResidualSum> scenes;
-    for (const CameraExtrinsics& camera : extrinsics.cameras)
-        for (const Residual& residual : camera.residuals) {
-            total.add(residual.error_px.norm());
-            scenes[residual.scene].add(residual.error_px.norm());
-        }
-    Json per_scene = Json::array();
-    for (const auto& [number, sum] : scenes) {
-        const auto named = names.find(number);
-        per_scene.push_back(
-            {{"scene", named == names.end() ? "scene " + std::to_string(number) : named->second},
-             {"rms_px", sum.rms()},
-             {"count", sum.count}});
-    }
-    return Json{{"count", total.count},
-                {"rms_px", total.rms()},
-                {"mean_px", total.mean()},
-                {"max_px", total.largest},
-                {"per_scene", std::move(per_scene)}};
 }
 
 /// That of the camera whose order is least certain; data and given are equally good.
