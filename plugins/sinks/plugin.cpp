@@ -5,6 +5,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "sinks/calibrated_rawlog.hpp"
 #include "sinks/export.hpp"
 #include "sinks/overlay.hpp"
 #include "sinks/rawlog.hpp"
@@ -12,6 +13,7 @@
 #include "sinks/result.hpp"
 
 PETAL_PLUGIN("sinks", "0.1.0", [](petal::Registrar& r) {
+    r.add<petal::CalibratedRawlog>("sink.calibrated_rawlog");
     r.add<petal::Export>("sink.export");
     r.add<petal::Overlay>("sink.overlay");
     r.add<petal::RawlogSink>("sink.rawlog");

@@ -70,5 +70,18 @@ TEST_F(ExportPipeline, IntrinsicsComeFromTheRawlogByAVariant) {
                 HasSubstr("cam_width: 1280"));
 }
 
+TEST_F(ExportPipeline, ACopyOfTheRawlogHasThePoses) {
+    write_result("usable");
+    ASSERT_EQ(
+        petal("run " + pipeline("simulate.json") + " --set scene.duration=0.1 --out sim").exit_code,
+        0);
+    const Ended ended = petal("run " + pipeline("calibrated_rawlog.json") +
+                              " --data sim --set 'known.file=\"earlier/result.json\"' --out out");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const Ended inspected = petal("inspect out/scene_calibrated.rawlog");
+    EXPECT_EQ(inspected.exit_code, 0) << inspected.err;
+    EXPECT_THAT(inspected.out, HasSubstr("CAMERA"));
+}
+
 }  // namespace
 }  // namespace petal::testing

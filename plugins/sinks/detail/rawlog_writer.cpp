@@ -164,6 +164,11 @@ void RawlogWriter::write(const Observation& observation) {
     for (const auto& object : place.after) serialize(*object, "what is no observation");
 }
 
+void RawlogWriter::write_other(const mrpt::serialization::CSerializable& object) {
+    end_frame();
+    serialize(object, "what is no observation");
+}
+
 void RawlogWriter::write_image(const CameraImage& camera) {
     mrpt::obs::CObservationImage observation;
     observation.sensorLabel = camera.label;

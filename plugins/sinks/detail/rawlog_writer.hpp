@@ -58,6 +58,8 @@ class RawlogWriter {
     /// image as a CObservationImage, by their stamps. Either may be null. `stamp` (s) is for a
     /// cloud without messages.
     void write_scene(const Cloud* cloud, const Images* images, double stamp);
+    /// An object that is no observation, and no sensory frame with one: an action.
+    void write_other(const mrpt::serialization::CSerializable& object);
     void commit();
 
     std::size_t observations() const { return observations_; }
