@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "external.hpp"
 #include "host_errors.hpp"
 #include "run_report.hpp"
 
@@ -16,9 +17,13 @@ int main(int argc, char** argv) {
         "rawlogs");
     app.set_version_flag("--version", std::string("petal ") + petal::version());
     app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 done, 1 failed, 2 wrong pipeline or usage, 3 plugin trouble, 4 weak or not "
-        "usable, 130 cancelled");
+    std::string further;
+    for (const std::string& name : external_commands())
+        further += (further.empty() ? "Programs of their own: petal " : ", petal ") + name;
+    if (!further.empty()) further += " (each with --help)\n\n";
+    app.footer(further +
+               "Exit codes: 0 done, 1 failed, 2 wrong pipeline or usage, 3 plugin trouble, 4 weak "
+               "or not usable, 130 cancelled");
     app.fallthrough();
 
     GlobalOptions global;
@@ -38,6 +43,12 @@ int main(int argc, char** argv) {
     add_verify(app, global, action);
     add_compare(app, global, action);
     add_schema(app, global, action);
+    try {
+        run_external(argc, argv);
+    } catch (const petal::Error& failure) {
+        std::cerr << "petal: " << failure.what() << "\n";
+        return kRunFailed;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "petal/calibration/extrinsics.hpp"
 #include "petal/run.hpp"
 #include "petal/spec.hpp"
 #include "petal/stage.hpp"
@@ -29,11 +28,5 @@ class ResultSource final : public Stage {
     Params params_;
     bool done_ = false;
 };
-
-/// Reads what a calibration's result.json tells of its cameras: labels, T_camera_lidar, covariance
-/// and the verdict. Intrinsics and residuals are not in it. \throws Error naming the file, line and
-/// key: cannot be read, no JSON, no result, nothing solved, a matrix that is no rigid motion, a
-/// covariance that is none, two entries of one camera and LiDAR.
-Extrinsics read_result(const std::filesystem::path& file);
 
 }  // namespace petal
