@@ -82,5 +82,17 @@ TEST_F(Calibrate, OnlyTheStillPartOfACaptureIsUsedWhereAskedFor) {
     EXPECT_LT(still, 0.4) << "a placement of 4 s";
 }
 
+TEST_F(Calibrate, AFocalLengthThatIsOffByOnePercentIsNamed) {
+    json scene = json::parse(read_text(PETAL_SOURCE_DIR "/datasets/scenes/set_four_diverse.json"));
+    scene["name"] = "wrong_focal";
+    scene["cameras"] = json::array({{{"focal_error", 0.01}}});
+    std::ofstream(folder_ / "wrong_focal.json") << scene.dump();
+    const json result = calibrated((folder_ / "wrong_focal.json").string(), 5.0, 4);
+    EXPECT_NE(result["verdict"], "usable");
+    EXPECT_THAT(result["reasons"].dump(), HasSubstr("too long"));
+    EXPECT_NEAR(result["extrinsics"][0]["focal"]["scale"].get<double>(), 1.0 / 1.01,
+                4.0 * result["extrinsics"][0]["focal"]["sigma"].get<double>());
+}
+
 }  // namespace
 }  // namespace petal::testing

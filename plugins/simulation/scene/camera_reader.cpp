@@ -89,7 +89,8 @@ void read_sensor(const JsonValue& node, CameraDevice& device) {
 
 SceneCamera read_camera(const JsonValue& node) {
     node.only({"label", "model", "width", "height", "fx", "fy", "cx", "cy", "distortion", "blur_px",
-               "vignetting", "exposure", "electrons", "read_noise", "colour", "mounting"});
+               "vignetting", "exposure", "electrons", "read_noise", "colour", "mounting",
+               "focal_error", "principal_point_error_px"});
     SceneCamera camera = default_camera();
     if (const auto label = node.find("label")) camera.device.label = label->text();
     read_intrinsics(node, camera.device.intrinsics);
@@ -100,6 +101,13 @@ SceneCamera read_camera(const JsonValue& node) {
     } catch (const Error& error) {
         node.fail(error.what());
     }
+    if (const auto error = node.find("focal_error"))
+        camera.focal_error = error->number(-0.5, 0.5, "1");
+    if (const auto error = node.find("principal_point_error_px")) {
+        camera.principal_point_error_px = error->vector2();
+        if (camera.principal_point_error_px.norm() > 0.5 * camera.device.intrinsics.ncols)
+            error->fail("must be shorter than half the image's width");
+    }
     if (const auto mounting = node.find("mounting")) {
         mounting->only({"position", "yaw_deg", "pitch_deg", "roll_deg"});
         const Eigen::Vector3d position = mounting->at("position").vector3();
@@ -108,6 +116,15 @@ SceneCamera read_camera(const JsonValue& node) {
         camera.T_camera_lidar = mounted(position, read_angles_deg(*mounting));
     }
     return camera;
+}
+
+mrpt::img::TCamera SceneCamera::recorded_intrinsics() const {
+    mrpt::img::TCamera recorded = device.intrinsics;
+    recorded.fx(recorded.fx() * (1.0 + focal_error));
+    recorded.fy(recorded.fy() * (1.0 + focal_error));
+    recorded.cx(recorded.cx() + principal_point_error_px.x());
+    recorded.cy(recorded.cy() + principal_point_error_px.y());
+    return recorded;
 }
 
 SceneCamera default_camera() {

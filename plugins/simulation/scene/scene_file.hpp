@@ -24,6 +24,11 @@ struct SceneBoard {
 struct SceneCamera {
     CameraDevice device;
     Eigen::Isometry3d T_camera_lidar;
+    double focal_error = 0.0;  ///< of 1: by how much the recorded focal lengths are too long
+    Eigen::Vector2d principal_point_error_px = Eigen::Vector2d::Zero();  ///< likewise
+
+    /// What a recorder would know of the camera: its intrinsics with these errors.
+    mrpt::img::TCamera recorded_intrinsics() const;
 };
 
 /// The sensors on their mounting: what stays the same from scene to scene.

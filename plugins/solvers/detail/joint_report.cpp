@@ -13,6 +13,7 @@
 #include "petal/error.hpp"
 #include "petal/printed.hpp"
 #include "solvers/detail/extrinsics_estimate.hpp"
+#include "solvers/detail/joint_focal.hpp"
 #include "solvers/detail/joint_scenes.hpp"
 #include "solvers/detail/placement_advice.hpp"
 #include "solvers/detail/reprojection_cost.hpp"
@@ -21,9 +22,7 @@ namespace petal {
 namespace {
 
 constexpr double kDriftRanges[] = {5.0, 20.0, 50.0};  // m
-constexpr double kSurelyOther = 3.0;   // sigmas from which a focal length is another one
-constexpr double kFarFromGiven = 2.0;  // and in units of how well the given one is known
-constexpr double kUpperZ3 = 3.0902;    // one-sided 99.9 %
+constexpr double kUpperZ3 = 3.0902;                   // one-sided 99.9 %
 
 /// The largest 1 sigma of a pixel straight ahead, px.
 double pixel_sigma(const CameraModel& model, const Matrix6d& covariance, double range) {
@@ -160,7 +159,7 @@ class JointReport {
         Diagnosis& diagnosis = camera.diagnosis.emplace();
         diagnosis.variance_scale = uncertainty.variance_scale();
         diagnosis.covariance_considered = uncertainty.covariance_considered(c, params_);
-        diagnosis.focal = uncertainty.focal(c);
+        diagnosis.focal = best_focal(input_.model, options_, solution_, uncertainty, c);
         for (const double range : kDriftRanges)
             diagnosis.drifts.push_back(
                 {range, pixel_sigma(model, camera.covariance, range),
@@ -195,15 +194,7 @@ class JointReport {
     }
 
     void tell_focal(std::size_t c, const Diagnosis::FocalScale& focal) {
-        const double off = std::abs(focal.scale - 1.0);
-        if (!(off > kSurelyOther * focal.sigma) || !(off > kFarFromGiven * params_.focal_sigma))
-            return;
-        const std::string seems = printed(
-            "focal length %s %.1f %% too %s (sigma %.1f %%)", focal.estimated ? "was" : "seems",
-            off * 100.0, focal.scale < 1.0 ? "long" : "short", focal.sigma * 100.0);
-        weak(who(c) + seems +
-             (focal.estimated ? " and was estimated: the result needs the corrected intrinsics"
-                              : ": check the intrinsics"));
+        if (const auto doubt = focal_doubt(focal, params_.focal_sigma)) weak(who(c) + *doubt);
     }
 
     /// The camera that moves most, in sigmas, where one of `scenes` is left out: an outlier is one

@@ -61,7 +61,7 @@ std::vector<CameraImage> images_of(const SceneCamera& camera, const Scene& scene
                               scene.motion.at(time) * camera.T_camera_lidar.inverse(), run);
         CameraImage image;
         image.label = camera.device.label;
-        image.camera = camera.device.intrinsics;
+        image.camera = camera.recorded_intrinsics();
         image.stamp = mrpt::Clock::fromDouble(begin + time);
         image.image =
             mrpt::img::CImage(expose(radiance, camera.device, seed + static_cast<std::uint64_t>(i)),

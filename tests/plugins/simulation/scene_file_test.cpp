@@ -288,5 +288,18 @@ TEST(SceneRig, TakesAnotherLidarWhenAskedTo) {
     EXPECT_EQ(file.make_rig({}, rng).lidar.profile.name, "livox_mid70");
 }
 
+TEST(SceneFile, TheRecordedIntrinsicsMayBeWrongButNotThePicture) {
+    SceneCamera camera;
+    camera.device.intrinsics.setIntrinsicParamsFromValues(900.0, 910.0, 640.0, 360.0);
+    camera.focal_error = 0.01;
+    camera.principal_point_error_px = {2.0, -3.0};
+    const mrpt::img::TCamera recorded = camera.recorded_intrinsics();
+    EXPECT_DOUBLE_EQ(recorded.fx(), 909.0);
+    EXPECT_DOUBLE_EQ(recorded.fy(), 919.1);
+    EXPECT_DOUBLE_EQ(recorded.cx(), 642.0);
+    EXPECT_DOUBLE_EQ(recorded.cy(), 357.0);
+    EXPECT_DOUBLE_EQ(camera.device.intrinsics.fx(), 900.0);
+}
+
 }  // namespace
 }  // namespace petal::simulation
