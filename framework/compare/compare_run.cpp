@@ -16,6 +16,7 @@
 #include "firing_clock.hpp"
 #include "host_errors.hpp"
 #include "report.hpp"
+#include "text_file.hpp"
 #include "unit_outcomes.hpp"
 
 namespace petal::compare {
@@ -113,12 +114,30 @@ class ComparisonRun {
         const auto outcomes = make_outcomes(comparison_, plan_, runs.records);
         const Figures figures = make_figures(comparison_, outcomes);
         write_csv(figures, outcomes);
-        out_.write("compare.json", compare_json(comparison_, plan_, figures, outcomes));
+        const std::string document = compare_json(comparison_, plan_, figures, outcomes);
+        out_.write("compare.json", document);
+        out_.write("report.html", report_html(comparison_, figures, outcomes, document,
+                                              pictures_of_failed(outcomes)));
         CompareEnd end;
         end.table = table_text(comparison_, figures);
         end.all_failed = std::all_of(outcomes.begin(), outcomes.end(),
                                      [](const UnitOutcome& one) { return !one.failure.empty(); });
         return end;
+    }
+
+    UnitPictures pictures_of_failed(const std::vector<UnitOutcome>& outcomes) const {
+        UnitPictures pictures;
+        const UnitStore store(out_.path() / "units");
+        for (const UnitOutcome& outcome : outcomes) {
+            if (outcome.failure.empty() || outcome.key.empty()) continue;
+            for (const fs::path& file : store.pictures(outcome.key)) {
+                std::string why;
+                if (const auto bytes = read_text_file(file, why))
+                    pictures[outcome.key].push_back(
+                        {fs::relative(file, out_.path()).string(), {bytes->begin(), bytes->end()}});
+            }
+        }
+        return pictures;
     }
 
     void write_csv(const Figures& figures, const std::vector<UnitOutcome>& outcomes) const {

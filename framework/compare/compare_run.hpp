@@ -31,8 +31,8 @@ struct CompareEnd {
     bool all_failed = false;  ///< no unit of any variant succeeded: nothing was compared
 };
 
-/// Runs what is not there yet, and writes compare.json, metrics/*.csv, timing.json and run.json
-/// into the folder. \throws UsageError (metrics that no result has), Error (disk).
+/// Runs what is not there yet, and writes compare.json, report.html, metrics/*.csv, timing.json and
+/// run.json into the folder. \throws UsageError (metrics that no result has), Error (disk).
 CompareEnd run_comparison(const Comparison& comparison, const Plan& plan, const PluginSet& plugins,
                           FileSums& sums, const OutFolder& out, const CompareSettings& settings);
 

@@ -31,6 +31,33 @@ std::string without_folders(std::string text, const fs::path& work, const fs::pa
     return text;
 }
 
+/// What stages drew, by path below their folder with '-' for '/': the first few by name that are
+/// not large, since there may be many units.
+std::map<std::string, std::string> pictures_in(const fs::path& folder) {
+    constexpr std::size_t kMost = 4;
+    constexpr std::uintmax_t kLargest = 2000000;  // bytes
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::path kind = entry->path().extension();
+        std::error_code none;
+        if ((kind == ".png" || kind == ".jpg") && entry->is_regular_file(none) &&
+            entry->file_size(none) <= kLargest)
+            files.push_back(entry->path());
+    }
+    std::sort(files.begin(), files.end());
+    if (files.size() > kMost) files.resize(kMost);
+    std::map<std::string, std::string> pictures;
+    for (const fs::path& file : files) {
+        std::string name = file.lexically_relative(folder).generic_string();
+        std::replace(name.begin(), name.end(), '/', '-');
+        std::string why;
+        if (auto bytes = read_text_file(file, why)) pictures[name] = std::move(*bytes);
+    }
+    return pictures;
+}
+
 std::string key_text(const Pipeline& pipeline, const StageNode& stage,
                      const std::map<std::string, std::string>& upstream) {
     std::string text = stage.id + "\n" + stage.spec->type + "\n" + std::to_string(pipeline.seed);
@@ -129,6 +156,8 @@ UnitRecord GroupRunner::run_one(const Prepared& prepared) {
         const fs::path absolute = fs::absolute(file).lexically_normal();
         record.files[absolute.string()] = sums_.of_any(absolute);
     }
+    if (record.status != "done" || record.verdict == petal::to_string(Level::not_usable))
+        record.pictures = pictures_in(prepared.folder / "stages");
     fs::remove_all(prepared.folder, error);
     return record;
 }

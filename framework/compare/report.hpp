@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,20 @@ std::string metric_csv(const Comparison& comparison, const MetricSpec& metric,
                        const std::vector<UnitOutcome>& outcomes);
 /// A file name for a metric: what is no letter, digit, '.', '-' or '_' becomes '_'.
 std::string csv_name(const MetricSpec& metric);
+
+/// A picture that a stage drew in a unit that failed.
+struct UnitPicture {
+    std::string path;  ///< from the comparison's folder
+    std::vector<unsigned char> bytes;
+};
+using UnitPictures = std::map<std::string, std::vector<UnitPicture>>;  ///< by the unit's key
+
+/// report.html, one file that asks for nothing else: verdicts, intervals, box plots, distributions,
+/// curves of swept parameters, failures with their reason and picture. Its tables are made from
+/// `document`, the text of compare.json, which it holds.
+std::string report_html(const Comparison& comparison, const Figures& figures,
+                        const std::vector<UnitOutcome>& outcomes, const std::string& document,
+                        const UnitPictures& pictures);
 
 /// What the user reads at the end: a table for each metric, one of the failures, and for each swept
 /// parameter.

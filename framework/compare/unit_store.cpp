@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -22,6 +23,7 @@ namespace {
 
 constexpr char kUnitFile[] = "unit.json";
 constexpr char kResultFile[] = "result.json";
+constexpr char kPictureFolder[] = "pictures";
 
 std::string unit_json(const UnitRecord& record) {
     Json json{{"petal_unit", 1},
@@ -116,6 +118,15 @@ std::optional<UnitRecord> UnitStore::load(const std::string& key, std::string& d
     }
 }
 
+std::vector<fs::path> UnitStore::pictures(const std::string& key) const {
+    std::vector<fs::path> files;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(place(key) / kPictureFolder, none))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 std::string UnitStore::changed_file(const UnitRecord& record, FileSums& sums) {
     for (const auto& [file, sum] : record.files)
         if (sums.of_any(file) != sum) return file;
@@ -131,12 +142,14 @@ void UnitStore::store(const UnitRecord& record) const {
         throw WriteError("cannot make the folder " + beside.string() + ": " + error.message() +
                          "; is the disk full? Free some space, or give another folder with --out");
     try {
-        const auto write = [&](const char* name, const std::string& text) {
+        const auto write = [&](const fs::path& name, const std::string& text) {
             PendingFile file(beside / name);
             write_file(file.path(), text);
             file.commit();
         };
         if (!record.result.empty()) write(kResultFile, record.result);
+        for (const auto& [name, bytes] : record.pictures)
+            write(fs::path(kPictureFolder) / name, bytes);
         write(kUnitFile, unit_json(record));
         remove(record.key);
         fs::rename(beside, place(record.key));

@@ -30,10 +30,12 @@ struct UnitRecord {
     std::uint64_t peak_memory_bytes = 0;
     std::map<std::string, double> stage_wall_s;  ///< of those that fired
     std::string result;                          ///< text of result.json; empty where there is none
+    /// What stages drew in a unit that failed, by name. Stored, and not loaded with the record.
+    std::map<std::string, std::string> pictures = {};
 };
 
-/// Finished units in a folder: OUT/units/<key>/unit.json and result.json. A unit is there whole or
-/// not at all: it is written beside and renamed.
+/// Finished units in a folder: OUT/units/<key>/unit.json, result.json and pictures/. A unit is
+/// there whole or not at all: it is written beside and renamed.
 class UnitStore {
    public:
     explicit UnitStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -42,6 +44,8 @@ class UnitStore {
     bool holds(const std::string& key) const;
     /// Nothing where there is none, or not a whole one; then `damage` says what is wrong with it.
     std::optional<UnitRecord> load(const std::string& key, std::string& damage) const;
+    /// The files of what stages drew in that unit, by name.
+    std::vector<std::filesystem::path> pictures(const std::string& key) const;
     /// A used file that is another one now, or gone; empty where all are as they were.
     static std::string changed_file(const UnitRecord& record, FileSums& sums);
     /// Replaces what lies there. \throws WriteError.
