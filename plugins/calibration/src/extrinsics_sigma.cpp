@@ -12,14 +12,21 @@
 
 namespace petal {
 
-Matrix6d column_covariance(const CameraExtrinsics& camera) {
+Matrix6d column_covariance(const Matrix6d& covariance, const Eigen::Isometry3d& T_camera_lidar) {
     Matrix6d map = Matrix6d::Identity();
-    map.topRightCorner<3, 3>() = -skew(camera.T_camera_lidar.translation());
-    return map * camera.covariance * map.transpose();
+    map.topRightCorner<3, 3>() = -skew(T_camera_lidar.translation());
+    return map * covariance * map.transpose();
+}
+
+Matrix6d column_covariance(const CameraExtrinsics& camera) {
+    return column_covariance(camera.covariance, camera.T_camera_lidar);
 }
 
 PrincipalSigma principal_sigma(const CameraExtrinsics& camera) {
-    const Matrix6d column = column_covariance(camera);
+    return principal_sigma(column_covariance(camera));
+}
+
+PrincipalSigma principal_sigma(const Matrix6d& column) {
     if (!column.allFinite()) {  // NaN would count as no error at all
         const double unknown = std::numeric_limits<double>::infinity();
         return {unknown, unknown};

@@ -4,7 +4,7 @@
 #include "sinks/detail/diagnosis_json.hpp"
 
 #include "petal/calibration/angles.hpp"
-#include "petal/calibration/se3.hpp"
+#include "petal/calibration/extrinsics_sigma.hpp"
 
 namespace petal {
 namespace {
@@ -28,10 +28,8 @@ OrderedJson list_of(const Eigen::Vector3d& v) {
 
 /// A covariance of (rho, phi) and the sigmas of the fourth column of T and of the rotation.
 OrderedJson covariance_json(const Matrix6d& covariance, const Eigen::Isometry3d& T_camera_lidar) {
-    Matrix6d map = Matrix6d::Identity();
-    map.topRightCorner<3, 3>() = -skew(T_camera_lidar.translation());
     const Vector6d sigmas =
-        (map * covariance * map.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+        column_covariance(covariance, T_camera_lidar).diagonal().cwiseMax(0.0).cwiseSqrt();
     return {{"covariance", rows_of(covariance)},
             {"sigma_translation_m", list_of(sigmas.head<3>())},
             {"sigma_rotation_deg", list_of(sigmas.tail<3>() * kDegrees)}};

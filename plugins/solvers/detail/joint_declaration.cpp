@@ -5,6 +5,7 @@
 
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
+#include "solvers/detail/verdict_declaration.hpp"
 #include "solvers/joint.hpp"
 
 namespace petal {
@@ -97,33 +98,6 @@ void declare_considered_and_advice(Spec<JointParams>& s) {
         return p.advice_min_range <= p.advice_max_range
                    ? std::string()
                    : "advice_min_range must not exceed advice_max_range";
-    });
-}
-
-void declare_verdict(Spec<JointParams>& s) {
-    s.param("usable_sigma", &VerdictParams::usable_sigma)
-        .unit("m")
-        .within(0.0, 10.0)
-        .doc("usable up to this largest principal 1-sigma of the translation");
-    s.param("usable_sigma_deg", &VerdictParams::usable_sigma_deg)
-        .unit("deg")
-        .within(0.0, 180.0)
-        .doc("usable up to this largest principal 1-sigma of the rotation");
-    s.param("not_usable_sigma", &VerdictParams::not_usable_sigma)
-        .unit("m")
-        .within(0.0, 1000.0)
-        .doc("not usable above this largest principal 1-sigma of the translation");
-    s.param("not_usable_sigma_deg", &VerdictParams::not_usable_sigma_deg)
-        .unit("deg")
-        .within(0.0, 180.0)
-        .doc("not usable above this largest principal 1-sigma of the rotation");
-    s.param("chi2_two_sided", &VerdictParams::chi2_two_sided)
-        .doc("a chi-square below its 99.9 % band makes the result weak too, not only one above");
-    s.check([](const JointParams& p) {
-        return p.usable_sigma <= p.not_usable_sigma && p.usable_sigma_deg <= p.not_usable_sigma_deg
-                   ? std::string()
-                   : "usable_sigma and usable_sigma_deg must not exceed not_usable_sigma and "
-                     "not_usable_sigma_deg";
     });
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "petal/calibration/angles.hpp"
+#include "petal/calibration/extrinsics_sigma.hpp"
 #include "petal/printed.hpp"
 #include "solvers/detail/joint_information.hpp"
 
@@ -114,26 +115,12 @@ Matrix6d pose_covariance(const Matrix7d& known, const AdviceParams& params) {
            (share * share - params.variance_scale) * answer * answer.transpose();
 }
 
-Matrix6d column_map(const Eigen::Isometry3d& T_camera_lidar) {
-    Matrix6d map = Matrix6d::Identity();
-    map.topRightCorner<3, 3>() = -skew(T_camera_lidar.translation());
-    return map;
-}
+struct Sigmas : PrincipalSigma {
+    Vector6d axes;  ///< of t x y z, and about x y z
 
-struct Sigmas {
-    double translation = 0.0, rotation = 0.0;  ///< largest principal ones
-    Vector6d axes = Vector6d::Zero();          ///< of t x y z, and about x y z
-
-    explicit Sigmas(const Matrix6d& column) {
-        const auto largest = [](const Eigen::Matrix3d& block) {
-            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block,
-                                                                       Eigen::EigenvaluesOnly);
-            return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
-        };
-        translation = largest(column.topLeftCorner<3, 3>());
-        rotation = largest(column.bottomRightCorner<3, 3>());
-        axes = column.diagonal().cwiseMax(0.0).cwiseSqrt();
-    }
+    explicit Sigmas(const Matrix6d& column)
+        : PrincipalSigma(principal_sigma(column)),
+          axes(column.diagonal().cwiseMax(0.0).cwiseSqrt()) {}
     double worst(const AdviceParams& params) const {
         return std::max(translation / params.usable_sigma, rotation / params.usable_sigma_rotation);
     }
@@ -236,9 +223,8 @@ std::optional<Diagnosis::Advice> advise_placement(const JointModel& model,
     const CameraModel& projection = model.cameras[camera];
     const Eigen::Isometry3d& pose = solution.state.T_camera_lidar[camera];
     PlacementSearch search(projection, pose, solution.state.focal[camera], *noise);
-    const Matrix6d map = column_map(pose);
     const auto sigmas = [&](const Matrix7d& information) {
-        return Sigmas(map * pose_covariance(information, params) * map.transpose());
+        return Sigmas(column_covariance(pose_covariance(information, params), pose));
     };
     const Sigmas before = sigmas(known);
     double best = kWorthwhile * before.worst(params);

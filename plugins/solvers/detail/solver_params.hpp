@@ -7,7 +7,7 @@
 
 #include "petal/spec.hpp"
 #include "solvers/detail/extrinsics_estimate.hpp"
-#include "solvers/detail/verdict.hpp"
+#include "solvers/detail/verdict_declaration.hpp"
 
 namespace petal {
 
@@ -48,34 +48,11 @@ void describe_solver(Spec<Params>& s) {
         .unit("px")
         .within(0.001, 100.0)
         .doc("what a covariance of 1 px^2 stands for in chi-square, as a standard deviation");
-    s.param("usable_sigma", &SolverParams::usable_sigma)
-        .unit("m")
-        .within(0.0, 10.0)
-        .doc("usable up to this largest principal 1-sigma of the translation");
-    s.param("usable_sigma_deg", &SolverParams::usable_sigma_deg)
-        .unit("deg")
-        .within(0.0, 180.0)
-        .doc("usable up to this largest principal 1-sigma of the rotation");
-    s.param("not_usable_sigma", &SolverParams::not_usable_sigma)
-        .unit("m")
-        .within(0.0, 1000.0)
-        .doc("not usable above this largest principal 1-sigma of the translation");
-    s.param("not_usable_sigma_deg", &SolverParams::not_usable_sigma_deg)
-        .unit("deg")
-        .within(0.0, 180.0)
-        .doc("not usable above this largest principal 1-sigma of the rotation");
-    s.param("chi2_two_sided", &SolverParams::chi2_two_sided)
-        .doc("a chi-square below its 99.9 % band makes the result weak too, not only one above");
+    declare_verdict(s);
     s.param("min_other_pose_ratio", &SolverParams::min_other_pose_ratio)
         .unit("1")
         .within(1.0, 100.0)
         .doc("weak where another pose fits the same pairs with less than this times the RMS");
-    s.check([](const Params& p) {
-        return p.usable_sigma <= p.not_usable_sigma && p.usable_sigma_deg <= p.not_usable_sigma_deg
-                   ? std::string()
-                   : "usable_sigma and usable_sigma_deg must not exceed not_usable_sigma and "
-                     "not_usable_sigma_deg";
-    });
 }
 
 }  // namespace petal
