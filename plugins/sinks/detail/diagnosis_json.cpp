@@ -5,6 +5,7 @@
 
 #include "petal/calibration/angles.hpp"
 #include "petal/calibration/extrinsics_sigma.hpp"
+#include "petal/calibration/se3.hpp"
 
 namespace petal {
 namespace {
