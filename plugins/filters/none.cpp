@@ -10,8 +10,8 @@ namespace petal {
 void NoFilter::describe(Spec<Params>& s) {
     s.summary("Passes the cloud on as it is, to see what another filter is worth.");
     s.doc(
-        R"(Every other outlier remover takes its place: `--set margins.type=filter.none` shows what a
-pipeline does without one. Nothing is copied or dropped, not even points that are not finite.)");
+        R"(Any other outlier remover takes its place: `{"stages": {"margins": {"type": "filter.none"}}}`, given with
+`--with`, shows what a pipeline does without one. Nothing is copied or dropped, not even points that are not finite.)");
     s.role("outlier_remover");
     s.reads<Cloud>("cloud", "points in the LiDAR frame");
     s.writes<Cloud>("cloud", "the very same");
