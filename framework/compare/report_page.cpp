@@ -209,7 +209,7 @@ Section failure_page(const Comparison& comparison, const Figures& figures,
         html::table("Failures by variant",
                     {"variant", "units", "failed", "it alone", "reference alone", "p", ""}, rows,
                     {0, 6});
-    std::size_t room = 6000000;  // bytes of pictures in the page; the others are linked
+    std::size_t room = 4000000;  // bytes of pictures in the page; the others are linked
     std::size_t index = 0;
     for (const UnitOutcome& outcome : outcomes) {
         if (outcome.failure.empty()) continue;
