@@ -99,4 +99,11 @@ std::optional<PointColour> PointColours::of(std::size_t point) const {
     return PointColour{bgr[2], bgr[1], bgr[0]};
 }
 
+std::optional<PointColours::Place> PointColours::place_of(std::size_t point) const {
+    const Seen& seen = seen_[point];
+    if (seen.pixel == kOutside) return {};
+    const auto width = static_cast<std::uint32_t>(photo_.cols);
+    return Place{seen.pixel % width, seen.pixel / width, seen.depth};
+}
+
 }  // namespace petal

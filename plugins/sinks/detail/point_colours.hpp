@@ -45,6 +45,12 @@ class PointColours {
     /// the camera, or is hidden.
     std::optional<PointColour> of(std::size_t point) const;
     bool hidden(std::size_t point) const;  ///< lies in the photo, but behind another point
+    /// Where a point lies on the photo, hidden or not; none where it is not on it.
+    struct Place {
+        std::uint32_t column, row;  ///< px
+        float depth;                ///< m along the camera's axis
+    };
+    std::optional<Place> place_of(std::size_t point) const;
     int cell_px() const { return cell_px_; }
 
    private:
