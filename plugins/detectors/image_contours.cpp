@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "petal/calibration/camera_model.hpp"
+#include "detectors/detail/image_input.hpp"
 #include "petal/calibration/file_name.hpp"
 #include "petal/error.hpp"
 #include "petal/printed.hpp"
@@ -22,37 +22,6 @@ namespace {
 
 /// Groups looked at closely in one photo; far more than there can be boards.
 constexpr int kMaxGroups = 200;
-
-std::string size_of(int width, int height) {
-    return std::to_string(width) + " x " + std::to_string(height);
-}
-
-cv::Mat pixels_of(const CameraImage& camera) {
-    if (camera.image.isEmpty())
-        throw Error("camera '" + camera.label +
-                    "' has an image without pixels: check the file, or that " +
-                    "the image beside the rawlog can be read");
-    cv::Mat pixels = camera.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
-    if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3))
-        throw Error("camera '" + camera.label +
-                    "': its image must have 8 bit and 1 or 3 channels; convert it before");
-    const auto width = static_cast<int>(camera.camera.ncols);
-    const auto height = static_cast<int>(camera.camera.nrows);
-    if (pixels.cols != width || pixels.rows != height)
-        throw Error("camera '" + camera.label + "': the image is " +
-                    size_of(pixels.cols, pixels.rows) + " pixels, but its intrinsics are for " +
-                    size_of(width, height) +
-                    ": give the intrinsics of this resolution, or the photo in its original size");
-    return pixels;
-}
-
-CameraModel model_of(const CameraImage& camera) {
-    try {
-        return CameraModel(camera.camera);
-    } catch (const Error& error) {
-        throw Error("camera '" + camera.label + "': " + error.what());
-    }
-}
 
 std::string short_number(double value) {
     return printed("%.3g", value);

@@ -104,18 +104,7 @@ HoleLayout::HoleLayout(const Target& target) : target_(target), corners_(target.
         high = high.cwiseMax(p);
     }
     center_ = 0.5 * (low + high);
-    for (int quarter = 0; quarter < 4; ++quarter) {
-        Eigen::Matrix2d turn;
-        turn << (quarter == 0) - (quarter == 2), (quarter == 3) - (quarter == 1),
-            (quarter == 1) - (quarter == 3), (quarter == 0) - (quarter == 2);
-        Homography board = Homography::Identity();
-        board.topLeftCorner<2, 2>() = turn;
-        board.topRightCorner<2, 1>() = center_ - turn * center_;
-        const bool same = std::all_of(corners_.begin(), corners_.end(), [&](const auto& p) {
-            return index_of(corners_, map_point(board, p)) < corners_.size();
-        });
-        if (same) turns_.push_back(board);
-    }
+    turns_ = BoardTurns(corners_, center_);
     sample_points();
 }
 
@@ -145,19 +134,9 @@ void HoleLayout::sample_points() {
 }
 
 Homography HoleLayout::upright(const Homography& h) const {
-    for (const Homography& turn : turns_)
+    for (const Homography& turn : turns_.all())
         if (is_upright(map_jacobian(h * turn, center_))) return h * turn;
     return h;
-}
-
-bool HoleLayout::is_upright(const Eigen::Matrix2d& jacobian) const {
-    const auto score = [](const Eigen::Matrix2d& j) {
-        return j(0, 0) / j.col(0).norm() + j(1, 1) / j.col(1).norm();
-    };
-    const double own = score(jacobian);
-    return std::all_of(turns_.begin(), turns_.end(), [&](const Homography& turn) {
-        return score(jacobian * turn.topLeftCorner<2, 2>()) <= own + 1e-9;
-    });
 }
 
 bool HoleLayout::plausible(const Homography& h, double min_foreshortening) const {

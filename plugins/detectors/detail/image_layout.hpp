@@ -9,12 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "detectors/detail/board_turns.hpp"
 #include "petal/calibration/target.hpp"
 
 namespace petal {
-
-/// A projective map from board coordinates (m) to ideal pinhole pixels.
-using Homography = Eigen::Matrix3d;
 
 /// H applied to a board point. Only meaningful in front of the camera: the third coordinate is
 /// positive.
@@ -62,7 +60,7 @@ class HoleLayout {
     /// right in the image and its y down, as nearly as can be.
     Homography upright(const Homography& h) const;
     /// Whether no turn would make it more upright; `jacobian` is that of the map at the centre.
-    bool is_upright(const Eigen::Matrix2d& jacobian) const;
+    bool is_upright(const Eigen::Matrix2d& jacobian) const { return turns_.is_upright(jacobian); }
     /// Seen from the front, whole, in front of the camera, not nearly edge on: the projected
     /// outline is convex and clockwise, and foreshortened to no less than `min_foreshortening`.
     bool plausible(const Homography& h, double min_foreshortening) const;
@@ -78,7 +76,7 @@ class HoleLayout {
     double hole_side_ = 0.0;
     std::vector<Eigen::Vector2d> plate_points_;
     std::vector<Eigen::Vector2d> hole_points_;
-    std::vector<Homography> turns_;  ///< board to board, the identity first
+    BoardTurns turns_;
 };
 
 }  // namespace petal

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "detectors/detail/image_binaries.hpp"
 #include "petal/calibration/angles.hpp"
 
 namespace petal {
@@ -142,42 +141,6 @@ class Collector {
     std::vector<cv::Point> hull_;
 };
 
-/// Levels that part the image's grey values into equal shares, each once.
-std::vector<int> quantile_levels(const cv::Mat& grey, int count) {
-    std::array<int, 256> histogram{};
-    for (int y = 0; y < grey.rows; ++y) {
-        const std::uint8_t* row = grey.ptr<std::uint8_t>(y);
-        for (int x = 0; x < grey.cols; ++x) ++histogram[row[x]];
-    }
-    const double total = static_cast<double>(grey.cols) * grey.rows;
-    std::vector<int> levels;
-    double below = 0.0;
-    int next = 1;
-    for (int value = 0; value < 255; ++value) {
-        below += histogram[static_cast<std::size_t>(value)];
-        while (next <= count && below >= total * next / (count + 1)) {
-            if (levels.empty() || levels.back() != value) levels.push_back(value);
-            ++next;
-        }
-    }
-    return levels;
-}
-
-/// Grey levels that neighbours differ by where nothing is to be seen: the median over the image.
-int usual_difference(const cv::Mat& grey) {
-    std::array<int, 256> histogram{};
-    int total = 0;
-    for (int y = 0; y < grey.rows; y += 2) {
-        const std::uint8_t* row = grey.ptr<std::uint8_t>(y);
-        for (int x = 0; x + 2 < grey.cols; x += 2, ++total)
-            ++histogram[static_cast<std::size_t>(std::abs(row[x] - row[x + 2]))];
-    }
-    int difference = 0;
-    for (int below = histogram[0]; 2 * below < total && difference < 255;)
-        below += histogram[static_cast<std::size_t>(++difference)];
-    return difference;
-}
-
 }  // namespace
 
 std::array<Eigen::Vector2d, 4> corners_by_distance(const std::vector<cv::Point>& contour) {
@@ -223,24 +186,10 @@ SquareSearch find_squares(const cv::Mat& grey, const SquareLimits& limits,
                           const std::function<void()>& check) {
     Collector collector(grey, limits);
     if (grey.cols < 8 || grey.rows < 8) return collector.take();
-    cv::Mat smooth, binary, mean;
-    cv::GaussianBlur(grey, smooth, cv::Size(3, 3), 0.0);
-    for (const int level : quantile_levels(smooth, limits.levels)) {
+    visit_binaries(grey, limits.levels, [&](const cv::Mat& bright) {
         if (check) check();
-        cv::threshold(smooth, binary, level, 255.0, cv::THRESH_BINARY);
-        collector.add(binary);
-    }
-    // Darker than the surroundings by more than the noise, else every flat wall is full of
-    // contours.
-    const int noise = 2 * usual_difference(smooth) + 1;
-    for (const int fraction : {64, 24, 10}) {
-        if (check) check();
-        const int window = std::max(5, std::max(grey.cols, grey.rows) / fraction) | 1;
-        cv::boxFilter(smooth, mean, -1, cv::Size(window, window));
-        cv::subtract(mean, cv::Scalar(noise), mean);
-        cv::compare(smooth, mean, binary, cv::CMP_GE);
-        collector.add(binary);
-    }
+        collector.add(bright);
+    });
     return collector.take();
 }
 
