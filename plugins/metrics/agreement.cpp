@@ -17,6 +17,7 @@
 #include "petal/calibration/angles.hpp"
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/correspondences.hpp"
+#include "petal/calibration/estimated_focal.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/metrics.hpp"
 #include "petal/calibration/same_projection.hpp"
@@ -154,12 +155,8 @@ class Holding {
                             "verify the scenes apart");
             return;
         }
-        given_ = camera_.model = info.camera;
-        if (camera_.diagnosis && camera_.diagnosis->focal && camera_.diagnosis->focal->estimated) {
-            const double scale = camera_.diagnosis->focal->scale;
-            camera_.model.fx(scale * camera_.model.fx());
-            camera_.model.fy(scale * camera_.model.fy());
-        }
+        given_ = info.camera;
+        camera_.model = with_estimated_focal(info.camera, camera_);
         model_.emplace(camera_.model);
         drift_.emplace(*model_, camera_.T_camera_lidar,
                        MeasurementNoise{params_.lidar_sigma, params_.board_redundancy});

@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "petal/calibration/estimated_focal.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/file_name.hpp"
 #include "petal/calibration/images.hpp"
@@ -83,13 +84,7 @@ std::optional<mrpt::img::TCamera> model_of(
     if (is_camera(solved.model)) return solved.model;
     const auto found = models.find(solved.camera);
     if (found == models.end() || !is_camera(found->second)) return std::nullopt;
-    mrpt::img::TCamera model = found->second;
-    if (solved.diagnosis && solved.diagnosis->focal && solved.diagnosis->focal->estimated) {
-        const double scale = solved.diagnosis->focal->scale;
-        model.fx(scale * model.fx());
-        model.fy(scale * model.fy());
-    }
-    return model;
+    return with_estimated_focal(found->second, solved);
 }
 
 /// Of all packets together, lowered by what checks found.

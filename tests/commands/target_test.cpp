@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <locale>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -165,7 +166,7 @@ TEST(TargetDrawingTest, TheDxfHasYUpAndALayerForEachUse) {
         } else if (code == 8) {
             layer = value;
         } else if ((code >= 10 && code <= 33) || code == 40) {
-            values[code] = std::stod(value);
+            values[code] = numbers_in(value).at(0);
         }
     }
     expect_points(outline, target.outline);

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "petal/calibration/estimated_focal.hpp"
+
 namespace petal {
 namespace {
 
@@ -19,13 +21,7 @@ const CameraExtrinsics* pose_for(const std::vector<Packet<Extrinsics>>& packets,
 }
 
 mrpt::img::TCamera model_for(const CameraExtrinsics& solved, const CameraPairs& seen) {
-    if (solved.model.fx() > 0.0) return solved.model;
-    mrpt::img::TCamera model = seen.model;
-    if (solved.diagnosis && solved.diagnosis->focal && solved.diagnosis->focal->estimated) {
-        model.fx(solved.diagnosis->focal->scale * model.fx());
-        model.fy(solved.diagnosis->focal->scale * model.fy());
-    }
-    return model;
+    return solved.model.fx() > 0.0 ? solved.model : with_estimated_focal(seen.model, solved);
 }
 
 std::string target_name(const std::vector<Packet<LidarBoards>>& lidar, const CameraPairs& seen,

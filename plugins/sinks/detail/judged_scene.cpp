@@ -6,20 +6,11 @@
 #include <set>
 #include <utility>
 
+#include "petal/calibration/estimated_focal.hpp"
 #include "petal/calibration/file_name.hpp"
 
 namespace petal {
 namespace {
-
-/// The image's own intrinsics, but for an estimated focal length.
-mrpt::img::TCamera model_of(const CameraImage& image, const CameraExtrinsics& solved) {
-    mrpt::img::TCamera model = image.camera;
-    if (solved.diagnosis && solved.diagnosis->focal && solved.diagnosis->focal->estimated) {
-        model.fx(solved.diagnosis->focal->scale * model.fx());
-        model.fy(solved.diagnosis->focal->scale * model.fy());
-    }
-    return model;
-}
 
 void add_views(JudgedScene& scene, const std::vector<Packet<Extrinsics>>& extrinsics) {
     for (const CameraImage& image : scene.images->cameras)
@@ -29,7 +20,7 @@ void add_views(JudgedScene& scene, const std::vector<Packet<Extrinsics>>& extrin
                     solved.T_camera_lidar.matrix().allFinite()) {
                     CameraImage judged = image;
                     judged.image = image.image.makeShallowCopy();
-                    judged.camera = model_of(image, solved);
+                    judged.camera = with_estimated_focal(image.camera, solved);
                     scene.views.push_back({&image, std::move(judged), solved.T_camera_lidar});
                 }
 }

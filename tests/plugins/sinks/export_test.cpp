@@ -8,8 +8,10 @@
 #include <mrpt/containers/yaml.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <clocale>
 #include <fstream>
 #include <iterator>
+#include <locale>
 #include <map>
 #include <opencv2/core.hpp>
 #include <sstream>
@@ -78,6 +80,15 @@ CameraImage photo_of(const std::string& label, DistortionModel distortion) {
     return image;
 }
 
+/// With a point, whatever the locale of the process.
+double number_in(const std::string& text) {
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double number = 0.0;
+    EXPECT_TRUE(in >> number) << text;
+    return number;
+}
+
 Eigen::Isometry3d quaternion_pose(const std::vector<double>& v) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized().toRotationMatrix();
@@ -90,6 +101,24 @@ void expect_pose(const Eigen::Isometry3d& found, const Eigen::Isometry3d& expect
         << found.matrix() << "\nexpected\n"
         << expected.matrix();
 }
+
+/// MRPT's readers go by the locale of the process; what was written must not.
+class PlainLocale {
+   public:
+    PlainLocale() : c_(std::setlocale(LC_ALL, nullptr)), cpp_(std::locale()) {
+        std::locale::global(std::locale::classic());  // and that of C
+    }
+    PlainLocale(const PlainLocale&) = delete;
+    PlainLocale& operator=(const PlainLocale&) = delete;
+    ~PlainLocale() {
+        std::locale::global(cpp_);
+        std::setlocale(LC_ALL, c_.c_str());
+    }
+
+   private:
+    std::string c_;
+    std::locale cpp_;
+};
 
 class ExportTest : public ::testing::Test {
    protected:
@@ -120,7 +149,7 @@ TEST_F(ExportTest, Ros1GivesThePoseOfTheOpticalFrameInTheLidar) {
     const auto words = args(text("static_transforms.launch"));
     ASSERT_EQ(words.size(), 9u);
     std::vector<double> numbers;
-    for (std::size_t i = 0; i < 7; ++i) numbers.push_back(std::stod(words[i]));
+    for (std::size_t i = 0; i < 7; ++i) numbers.push_back(number_in(words[i]));
     EXPECT_EQ(words[7], "LIDAR");
     EXPECT_EQ(words[8], "CAMERA_optical_frame");
     expect_pose(quaternion_pose(numbers), camera_.T_camera_lidar.inverse());
@@ -134,7 +163,7 @@ TEST_F(ExportTest, Ros2NamesEachNumber) {
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) named[words[i]] = words[i + 1];
     std::vector<double> numbers;
     for (const char* key : {"--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw"})
-        numbers.push_back(std::stod(named.at(key)));
+        numbers.push_back(number_in(named.at(key)));
     EXPECT_EQ(named.at("--frame-id"), "CAMERA_optical_frame");
     EXPECT_EQ(named.at("--child-frame-id"), "LIDAR");
     expect_pose(quaternion_pose(numbers), camera_.T_camera_lidar);
@@ -143,6 +172,7 @@ TEST_F(ExportTest, Ros2NamesEachNumber) {
 TEST_F(ExportTest, AutowareHasTheBodyFrameOfTheCamera) {
     give(camera_);
     stage_.fire();
+    const PlainLocale plain;
     const auto yaml = mrpt::containers::yaml::FromText(text("sensor_kit_calibration.yaml"));
     const auto pose = yaml["LIDAR"]["CAMERA/camera_link"];
     const auto number = [&](const char* key) { return pose[key].as<double>(); };
@@ -163,6 +193,7 @@ TEST_F(ExportTest, KalibrChainsTheCameras) {
     stage_.give<Images>("images", Images{{photo_of("CAMERA", DistortionModel::plumb_bob),
                                           photo_of("RIGHT", DistortionModel::kannala_brandt)}});
     stage_.fire();
+    const PlainLocale plain;
     const auto yaml = mrpt::containers::yaml::FromText(text("camchain.yaml"));
     const auto matrix = [&](const char* camera, const char* key) {
         Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -193,6 +224,7 @@ TEST_F(ExportTest, KalibrChainsTheCameras) {
 TEST_F(ExportTest, FastLivo2ReadsRclAndPcl) {
     give(camera_);
     stage_.fire();
+    const PlainLocale plain;
     const auto yaml = mrpt::containers::yaml::FromText(text("fast_livo2.yaml"));
     const auto number = [&](const char* key, std::size_t i) {
         return yaml["extrin_calib"][key].asSequence().at(i).as<double>();
@@ -243,6 +275,7 @@ TEST_F(ExportTest, MrptReadsPosesAndCameras) {
         stage.give<Extrinsics>("extrinsics", exported({camera_}));
         stage.give<Images>("images", Images{{photo_of("CAMERA", distortion)}});
         stage.fire();
+        const PlainLocale plain;
         const mrpt::config::CConfigFile file((stage.folder() / "export" / "mrpt.ini").string());
         const auto pose = [&](const char* key) {
             const auto read =
@@ -320,6 +353,7 @@ TEST_F(ExportTest, AnEstimatedFocalLengthGoesWithTheIntrinsics) {
     camera_.diagnosis->focal = Diagnosis::FocalScale{1.01, 1e-4, true};
     give(camera_);
     stage_.fire();
+    const PlainLocale plain;
     const auto yaml = mrpt::containers::yaml::FromText(text("fast_livo2.yaml"));
     EXPECT_NEAR(yaml["cam_fx"].as<double>(), 1.01 * 915.25, 1e-8);
 }
