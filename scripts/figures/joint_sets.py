@@ -29,7 +29,7 @@ def patch(scene, duration):
         "result": {"in": {"metrics": ["reprojection.metrics", "intrinsics.metrics",
                                       "stillness.metrics", "board_check.metrics",
                                       "truth.metrics", "boards.metrics"]}},
-        "overlay": None}}
+        "overlay": None, "report": None}}
 
 
 def sigmas(result):

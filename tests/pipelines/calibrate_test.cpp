@@ -50,8 +50,14 @@ TEST_F(Calibrate, FourPlacementsGiveThePoseAndSayHowWell) {
                   rig["sigma_rotation_deg"][i].get<double>());
 
     const std::string two_threads = read_text(folder_ / "out" / "result.json");
+    const std::string page = read_text(folder_ / "out" / "report.html");
+    EXPECT_LT(page.size(), 8000000U) << "what a report of four scenes may be";
+    const std::size_t begin = page.find('>', page.find("id=\"data\"")) + 1;
+    EXPECT_EQ(json::parse(page.substr(begin, page.find("</script>", begin) - begin)), result)
+        << "the report and the result tell the same";
     calibrated("set_four_diverse", 5.0, 0, "--seed 3 --threads 1");
     EXPECT_TRUE(two_threads == read_text(folder_ / "out" / "result.json"));
+    EXPECT_TRUE(page == read_text(folder_ / "out" / "report.html"));
 }
 
 TEST_F(Calibrate, OneFlatBoardIsNoCalibration) {
