@@ -5,77 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
 #include "detectors/image_contours.hpp"
 #include "image_render.hpp"
 #include "petal/testing/stage_harness.hpp"
 #include "real_data.hpp"
+#include "real_scenes.hpp"
 
 namespace petal {
 namespace {
 
 using testing::Photo;
-using testing::real_data;
 using testing::StageHarness;
-
-struct Scene {
-    cv::Mat pixels;
-    mrpt::img::TCamera camera;
-    std::vector<Eigen::Vector2d> reference;
-};
-
-/// Written with a point, whatever the locale of the process.
-double number(const std::string& text) {
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double value = 0.0;
-    in >> value;
-    EXPECT_TRUE(in) << text;
-    return value;
-}
-
-/// Columns 3 and 4 (from 0) of a CSV file.
-std::vector<Eigen::Vector2d> read_pixels(const std::filesystem::path& file) {
-    std::vector<Eigen::Vector2d> pixels;
-    std::ifstream in(file);
-    for (std::string line; std::getline(in, line);) {
-        if (line.empty() || line[0] == '#') continue;
-        std::stringstream cells(line);
-        std::vector<std::string> cell;
-        for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-        pixels.emplace_back(number(cell.at(3)), number(cell.at(4)));
-    }
-    return pixels;
-}
-
-Scene read_scene(const std::string& name, const std::string& reference) {
-    Scene scene;
-    scene.pixels = cv::imread((real_data() / name / "image.jpg").string());
-    scene.camera.ncols = static_cast<std::uint32_t>(scene.pixels.cols);
-    scene.camera.nrows = static_cast<std::uint32_t>(scene.pixels.rows);
-    scene.reference = read_pixels(real_data() / name / reference);
-    return scene;
-}
-
-Scene campus() {
-    Scene scene = read_scene("sjtu_campus", "reference_corners_image.csv");
-    scene.camera.setIntrinsicParamsFromValues(920.52948, 920.92645, 645.0882, 358.04642);
-    scene.camera.setDistortionPlumbBob(-0.00633318, 0.00222445, -0.00020834, -0.00099644, 0.0);
-    return scene;
-}
-
-Scene indoor() {
-    Scene scene = read_scene("sjtu_indoor", "published_corner_pairs.csv");
-    scene.camera.setIntrinsicParamsFromValues(349.778091, 349.067100, 315.445567, 279.04059);
-    scene.camera.setDistortionPlumbBob(-0.00633318, 0.00222445, -0.00020834, -0.00099644, 0.0);
-    return scene;
-}
 
 ImageBoards detect(const cv::Mat& pixels, const mrpt::img::TCamera& camera) {
     StageHarness stage = StageHarness::of<ImageContours>("detector.image_contours");
@@ -85,77 +29,45 @@ ImageBoards detect(const cv::Mat& pixels, const mrpt::img::TCamera& camera) {
     return stage.out<ImageBoards>("boards");
 }
 
-std::vector<Eigen::Vector2d> all_corners(const ImageBoards& boards) {
-    std::vector<Eigen::Vector2d> corners;
-    for (const auto& board : boards.boards)
-        corners.insert(corners.end(), board.corners.begin(), board.corners.end());
-    return corners;
-}
-
-/// For each reference point the distance of the nearest corner, ascending.
-std::vector<double> distances(const std::vector<Eigen::Vector2d>& reference,
-                              const std::vector<Eigen::Vector2d>& corners) {
-    std::vector<double> all;
-    for (const auto& point : reference) {
-        double nearest = 1e9;
-        for (const auto& corner : corners) nearest = std::min(nearest, (corner - point).norm());
-        all.push_back(nearest);
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-}
-
-double median(const std::vector<double>& sorted) {
-    return sorted.at(sorted.size() / 2);
-}
-
 TEST(ImageContoursReal, CampusHas32CornersAndNoFalseBoard) {
     PETAL_NEEDS_REAL_DATA();
-    const Scene scene = campus();
+    const testing::RealScene scene = testing::campus_scene();
     const ImageBoards found = detect(scene.pixels, scene.camera);
     ASSERT_EQ(found.boards.size(), 2u);
-    const auto off = distances(scene.reference, all_corners(found));
+    const auto off = testing::distances_to_nearest(scene.reference, testing::all_corners(found));
     // Asked for: 0.8 and 2.5. The reference itself is good to about 0.3 px.
-    EXPECT_LT(median(off), 0.15);
+    EXPECT_LT(testing::median_of_sorted(off), 0.15);
     EXPECT_LT(off.back(), 0.7);
-    RecordProperty("median_px", std::to_string(median(off)));
+    RecordProperty("median_px", std::to_string(testing::median_of_sorted(off)));
     RecordProperty("max_px", std::to_string(off.back()));
     // Row by row from the top left: the reference file is in that order, board by board.
-    const auto corners = all_corners(found);
+    const auto corners = testing::all_corners(found);
     for (std::size_t i = 0; i < corners.size(); ++i)
         EXPECT_LT((corners[i] - scene.reference[i]).norm(), 0.7) << i;
 }
 
 TEST(ImageContoursReal, IndoorHas64CornersAndNoFalseBoard) {
     PETAL_NEEDS_REAL_DATA();
-    const Scene scene = indoor();
+    const testing::RealScene scene = testing::indoor_scene();
     const ImageBoards found = detect(scene.pixels, scene.camera);
     ASSERT_EQ(found.boards.size(), 4u);
-    const auto corners = all_corners(found);
+    const auto corners = testing::all_corners(found);
 
     // The published pixels do not belong to the raw photo: its authors rectified it with a new
     // camera matrix (all pixels kept) and took the corners there. In that picture the figures asked
     // for hold: 1 and 3.
-    cv::Mat k = (cv::Mat_<double>(3, 3) << scene.camera.fx(), 0, scene.camera.cx(), 0,
-                 scene.camera.fy(), scene.camera.cy(), 0, 0, 1);
-    cv::Mat d = (cv::Mat_<double>(1, 4) << -0.00633318, 0.00222445, -0.00020834, -0.00099644);
-    const cv::Mat rectified = cv::getOptimalNewCameraMatrix(k, d, scene.pixels.size(), 1.0);
-    std::vector<cv::Point2d> raw, moved;
-    for (const auto& c : corners) raw.emplace_back(c.x(), c.y());
-    cv::undistortPoints(raw, moved, k, d, cv::noArray(), rectified);
-    std::vector<Eigen::Vector2d> in_theirs;
-    for (const auto& p : moved) in_theirs.emplace_back(p.x, p.y);
-    const auto off = distances(scene.reference, in_theirs);
-    EXPECT_LE(median(off), 1.0);
+    const auto in_theirs = testing::in_published_picture(scene, corners);
+    const auto off = testing::distances_to_nearest(scene.reference, in_theirs);
+    EXPECT_LE(testing::median_of_sorted(off), 1.0);
     EXPECT_LE(off.back(), 3.0);
 
     // As raw pixels, which they are not: 0.5 % nearer together.
-    const auto raw_off = distances(scene.reference, corners);
-    EXPECT_LE(median(raw_off), 1.1);
+    const auto raw_off = testing::distances_to_nearest(scene.reference, corners);
+    EXPECT_LE(testing::median_of_sorted(raw_off), 1.1);
     EXPECT_LE(raw_off.back(), 3.05);
-    RecordProperty("median_px", std::to_string(median(off)));
+    RecordProperty("median_px", std::to_string(testing::median_of_sorted(off)));
     RecordProperty("max_px", std::to_string(off.back()));
-    RecordProperty("raw_median_px", std::to_string(median(raw_off)));
+    RecordProperty("raw_median_px", std::to_string(testing::median_of_sorted(raw_off)));
     RecordProperty("raw_max_px", std::to_string(raw_off.back()));
 }
 
@@ -210,19 +122,20 @@ TEST_P(ImageContoursChanged, SameBoardsAndCorners) {
     PETAL_NEEDS_REAL_DATA();
     const Change& change = GetParam();
     for (const bool outdoors : {false, true}) {
-        const Scene scene = outdoors ? campus() : indoor();
+        const testing::RealScene scene =
+            outdoors ? testing::campus_scene() : testing::indoor_scene();
         const auto plain = [](const cv::Mat& pixels, double focal) {
             return testing::make_camera(pixels.cols, pixels.rows, focal);
         };
         const double focal = outdoors ? 920.0 : 349.0;
         const cv::Mat pixels = change.change(scene.pixels);
-        const auto before = all_corners(detect(scene.pixels, plain(scene.pixels, focal)));
+        const auto before = testing::all_corners(detect(scene.pixels, plain(scene.pixels, focal)));
         const ImageBoards found = detect(pixels, plain(pixels, focal));
         ASSERT_EQ(found.boards.size(), outdoors ? 2u : 4u);
         std::vector<Eigen::Vector2d> expected;
         for (const auto& corner : before)
             expected.push_back(change.move(corner, scene.pixels.size()));
-        const auto off = distances(expected, all_corners(found));
+        const auto off = testing::distances_to_nearest(expected, testing::all_corners(found));
         double squares = 0.0;
         for (const double d : off) squares += d * d;
         const double rms = std::sqrt(squares / static_cast<double>(off.size()));
