@@ -290,8 +290,8 @@ TEST_P(ShippedComparison, RunsSmall) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, ShippedComparison,
-                         ::testing::Values("letter_vs_calibrate", "outlier_removers", "solvers",
-                                           "table2"),
+                         ::testing::Values("image_detectors", "letter_vs_calibrate",
+                                           "outlier_removers", "solvers", "table2"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
