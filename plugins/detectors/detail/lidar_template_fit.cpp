@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "detectors/detail/lidar_template_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "detectors/detail/lidar_template_silent.hpp"
+
+namespace petal {
+namespace {
+
+constexpr int kFirstSteps = 12, kFitSteps = 20;
+constexpr int kRounds = 2;
+constexpr int kTurns = 3;
+constexpr double kBand = 0.035;  ///< m: rays farther off an edge tell nothing of its place
+constexpr std::size_t kFirstRays = 8000;
+constexpr double kFirstWidth = 0.008;   ///< m
+constexpr double kLeastGained = 0.003;  ///< of the log likelihood, in a step: 0.08 sigma
+constexpr double kPlateMargin = 0.025;  ///< m: half of a Mid-70's beam at 10 m
+constexpr double kMarginShare = 0.6;    ///< of PlateShape::rim(), at most
+constexpr double kLeastFloor = 0.002, kMostFloor = 0.1;
+constexpr std::size_t kLeastRays = 60;
+/// Of the plate's thickness, how much the beam sees of a hole's wall: measured in the simulation.
+/// Along its level axis a beam is narrower than the wall looks at 20 deg; along its upright axis
+/// far wider, and what little the wall sends back makes no hit.
+constexpr double kWallLevelShare = 0.85, kWallUprightShare = 0.15, kWallShareSigma = 0.15;
+constexpr double kLeastCommon = 0.0002;   ///< m, of a side
+constexpr double kFitLineFreedoms = 5.0;  ///< x, y, turn and both shifts
+
+using Mask = std::array<bool, kPlateParameters>;
+
+Mask mask_of(std::initializer_list<int> free) {
+    Mask mask{};
+    for (const int index : free) mask[static_cast<std::size_t>(index)] = true;
+    return mask;
+}
+
+/// Levenberg's steps over the free parameters. False where nothing fixes them.
+bool climb(const PlateShape& shape, const PlatePriors& priors, const ToldRays& rays,
+           const Mask& free, int steps, PlateState& state) {
+    PlateEvaluation at = evaluate_plate(shape, state, priors, rays);
+    std::vector<int> index;
+    for (int i = 0; i < kPlateParameters; ++i)
+        if (free[static_cast<std::size_t>(i)]) index.push_back(i);
+    const auto count = static_cast<Eigen::Index>(index.size());
+    double damping = 1e-3;
+    for (int step = 0; step < steps; ++step) {
+        Eigen::MatrixXd matrix(count, count);
+        Eigen::VectorXd gradient(count);
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const int row = index[static_cast<std::size_t>(i)];
+            gradient(i) = at.gradient(row);
+            for (Eigen::Index j = 0; j < count; ++j)
+                matrix(i, j) = at.expected(row, index[static_cast<std::size_t>(j)]);
+            matrix(i, i) *= 1.0 + damping;
+        }
+        const Eigen::LDLT<Eigen::MatrixXd> solver(matrix);
+        if (solver.info() != Eigen::Success || !solver.isPositive()) return false;
+        const Eigen::VectorXd solved = solver.solve(gradient);
+        if (!solved.allFinite()) return false;
+        PlateVector move = PlateVector::Zero();
+        for (Eigen::Index i = 0; i < count; ++i)
+            move(index[static_cast<std::size_t>(i)]) = solved(i);
+        // No step beyond half a width's order: the likelihood is bent there.
+        const double most =
+            std::max({move.head<3>().cwiseAbs().maxCoeff() / 0.01,
+                      move.segment<3>(kPhiX).cwiseAbs().maxCoeff() / 0.03,
+                      move.segment<2>(kShiftLevel).cwiseAbs().maxCoeff() / 0.01,
+                      move.segment<2>(kWidthLevel).cwiseAbs().maxCoeff() / 0.7, 1.0});
+        move /= most;
+        PlateState next = moved(state, move);
+        PlateEvaluation there = evaluate_plate(shape, next, priors, rays);
+        if (there.value > at.value) {
+            const double gained = there.value - at.value;
+            state = next;
+            at = std::move(there);
+            damping = std::max(damping * 0.2, 1e-6);
+            if (most <= 1.0 && gained < kLeastGained) return true;
+        } else {
+            damping *= 10.0;
+            if (damping > 1e3) return true;
+        }
+    }
+    return true;
+}
+
+/// The share of rays that tell the wrong thing far off the edges.
+double floor_of(const PlateShape& shape, const RayBundle& rays, double margin) {
+    double plate = 0.0, plate_missed = 0.0, hole = 0.0, hole_hit = 0.0;
+    for (const PlaneRay& ray : rays.rays) {
+        const Told told = rays.told(ray);
+        if (told == Told::nothing || !shape.in_zone(ray.place)) continue;
+        const double inside = shape.edge(ray.place).inside;
+        if (inside > margin) {
+            plate += 1.0;
+            plate_missed += told == Told::miss;
+        } else if (inside < -margin) {
+            hole += 1.0;
+            hole_hit += told == Told::hit;
+        }
+    }
+    const double wrong = std::max(plate > 0.0 ? plate_missed / plate : 0.0,
+                                  hole > 20.0 ? std::min(hole_hit / hole, 0.5 * kMostFloor) : 0.0);
+    return std::clamp(wrong, kLeastFloor, kMostFloor);
+}
+
+/// Every `stride`-th ray near an edge, and how many there are farther off.
+void choose_rays(const PlateShape& shape, const RayBundle& bundle, std::size_t stride,
+                 ToldRays& zone) {
+    zone.rays.clear();
+    zone.right = zone.wrong = zone.far_hits = 0.0;
+    std::size_t near = 0;
+    for (const PlaneRay& ray : bundle.rays) {
+        const Told told = bundle.told(ray);
+        if (told == Told::nothing || !shape.in_zone(ray.place)) continue;
+        const double inside = shape.edge(ray.place).inside;
+        if (std::abs(inside) <= kBand) {
+            if (near++ % stride == 0) zone.rays.push_back({ray.point, told == Told::hit});
+            continue;
+        }
+        ((inside > 0.0) == (told == Told::hit) ? zone.right : zone.wrong) += 1.0;
+        if (told == Told::hit) zone.far_hits += 1.0;
+    }
+}
+
+/// The error that the rays of each side share, from how the sides scatter: opposite sides moved
+/// alike shift the board, moved unlike they make holes smaller.
+double common_of(const PlateShape& shape, const PlateEvaluation& at) {
+    double shifts = 0.0, pairs = -3.0, all = 0.0, used = -kFitLineFreedoms, noise = 0.0,
+           count = 0.0;
+    for (std::size_t s = 0; s < at.sides.size(); ++s) {
+        const PlateEvaluation::Side& side = at.sides[s];
+        if (!(side.information > 0.0)) continue;
+        const double mean = side.score / side.information;
+        all += mean * mean;
+        used += 1.0;
+        count += 1.0;
+        noise += 1.0 / side.information;
+        const int other = shape.opposite(s);
+        if (other <= static_cast<int>(s)) continue;
+        const PlateEvaluation::Side& across = at.sides[static_cast<std::size_t>(other)];
+        if (!(across.information > 0.0)) continue;
+        // Both count into the plate, so a shift of the board is half their difference.
+        const double shift = 0.5 * (mean - across.score / across.information);
+        shifts += shift * shift;
+        pairs += 1.0;
+    }
+    if (count < 1.0) return kLeastCommon;
+    double variance = all / std::max(used, 1.0);
+    if (pairs > 0.0) variance = (2.0 * shifts + variance) / (pairs + 1.0);
+    return std::max(std::sqrt(std::max(variance - noise / count, 0.0)), kLeastCommon);
+}
+
+/// Covariance of all parameters: sides weigh as their common error allows, the plane by the
+/// plate's own points.
+PlateMatrix covariance_of(const PlateShape& shape, const PlateFit& fit, const PlatePriors& priors,
+                          bool stretches) {
+    const PlateEvaluation at = evaluate_plate(shape, fit.state, priors, fit.zone);
+    PlateMatrix information = at.observed;
+    information.block<3, 3>(kRhoZ, kRhoZ) += fit.plane.information;
+    if (!stretches)
+        for (int axis = 0; axis < 2; ++axis) information(kStretchX + axis, kStretchX + axis) = 1e12;
+    PlateMatrix covariance = information.ldlt().solve(PlateMatrix::Identity());
+    // What the sides share: each side's shift into the plate moves every parameter.
+    PlateMatrix shared = PlateMatrix::Zero();
+    for (const PlateEvaluation::Side& side : at.sides) shared += side.pull * side.pull.transpose();
+    covariance += fit.side_common * fit.side_common * covariance * shared * covariance;
+    return 0.5 * (covariance + covariance.transpose());
+}
+
+}  // namespace
+
+bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
+               const PlatePlacement& placement, PlateFit& fit) {
+    const PlateShape& shape = target.holes;
+    PlatePriors priors;
+    priors.shift_level_sigma = beam.shift_level_sigma;
+    priors.shift_upright_sigma = beam.shift_upright_sigma;
+    priors.wall = shape.thickness() * Eigen::Vector2d(kWallLevelShare, kWallUprightShare);
+    priors.wall_sigma.setConstant(std::max(kWallShareSigma * shape.thickness(), 1e-5));
+    const double margin = std::min(kPlateMargin, kMarginShare * shape.rim());
+
+    PlateState& state = fit.state;
+    state = PlateState{};
+    state.T_lidar_middle = rays.T_lidar_plane *
+                           Eigen::Translation3d(placement.middle.x(), placement.middle.y(), 0.0) *
+                           Eigen::AngleAxisd(placement.angle, Eigen::Vector3d::UnitZ());
+    state.log_width.setConstant(std::log(kFirstWidth));
+    state.wall = priors.wall;
+
+    const auto take_plane = [&] {
+        replace_plane(rays, state.T_lidar_middle);
+        measure_ranges(
+            rays, [&](const auto& p) { return target.all.edge(p).inside > margin; },
+            [&](const auto& p) { return target.all.edge(p).inside < -margin; });
+    };
+    const auto settle = [&](std::size_t stride) {
+        choose_rays(shape, rays, stride, fit.zone);
+        fit.zone.floor = floor_of(shape, rays, margin);
+        fit.density = add_silent(target, rays, margin, fit.zone);
+        for (ToldRays::Silent& silent : fit.zone.silent) silent.rays /= static_cast<double>(stride);
+        return fit.zone.rays.size() >= kLeastRays;
+    };
+    const Mask first = mask_of({kRhoX, kRhoY, kPhiZ, kShiftLevel, kShiftUpright});
+    const Mask full =
+        mask_of({kRhoX, kRhoY, kPhiZ, kShiftLevel, kShiftUpright, kWidthLevel, kWidthUpright});
+    take_plane();
+    const std::size_t stride = rays.rays.size() / kFirstRays + 1;
+    if (!settle(stride) || !climb(shape, priors, fit.zone, first, kFirstSteps, state)) return false;
+    for (int round = 0; round < kRounds; ++round) {
+        // A first plane that is far off cuts away some of the plate's own points.
+        for (int turn = 0; turn < kTurns; ++turn) {
+            if (!turn_into_plate(target.all, rays, margin, state.T_lidar_middle)) return false;
+            take_plane();
+        }
+        if (!settle(round + 1 < kRounds ? stride : 1) ||
+            !climb(shape, priors, fit.zone, full, kFitSteps, state))
+            return false;
+    }
+    replace_plane(rays, state.T_lidar_middle);
+    fit.plane = measure_plate(target.all, rays, margin);
+
+    const PlateEvaluation at = evaluate_plate(shape, state, priors, fit.zone);
+    fit.side_common = common_of(shape, at);
+    const PlateMatrix covariance = covariance_of(shape, fit, priors, false);
+    fit.covariance = covariance.topLeftCorner<6, 6>();
+    fit.shift_sigma = covariance.diagonal().segment<2>(kShiftLevel).cwiseMax(0.0).cwiseSqrt();
+    fit.gain = gain_over_share(fit.zone, at.rays_value);
+
+    PlateFit other = fit;
+    Mask stretched = full;
+    stretched[kStretchX] = stretched[kStretchY] = true;
+    if (climb(shape, priors, fit.zone, stretched, kFitSteps, other.state)) {
+        fit.stretch = other.state.stretch;
+        fit.stretch_sigma = covariance_of(shape, other, priors, true)
+                                .diagonal()
+                                .segment<2>(kStretchX)
+                                .cwiseMax(0.0)
+                                .cwiseSqrt();
+    }
+    fit.rays = std::move(rays);
+    return true;
+}
+
+}  // namespace petal

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "detectors/detail/lidar_template_placement.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "petal/calibration/angles.hpp"
+
+namespace petal {
+namespace {
+
+constexpr int kCellsInSide = 32;        ///< of the board's lesser side
+constexpr int kEdgeCellsInSide = 64;    ///< the same for points on edges
+constexpr double kRingShare = 0.1;      ///< of the lesser side: the ring around the outline
+constexpr double kPlacementStep = 3.5;  ///< deg, of the turns tried
+constexpr double kEdgeStep = 2.0;       ///< deg
+constexpr double kExpected = 3.0;    ///< rays: a cell that should hold more and holds none is empty
+constexpr double kSameTurn = 10.0;   ///< deg
+constexpr double kSamePlace = 0.08;  ///< of the lesser side
+
+struct Raster {
+    double cell = 0.0;
+    int half = 0;
+    int size() const { return 2 * half + 1; }
+    Raster(double cell_size, double reach)
+        : cell(cell_size), half(static_cast<int>(std::ceil(reach / cell_size))) {}
+    /// False outside.
+    bool at(const Eigen::Vector2d& p, int& column, int& row) const {
+        column = static_cast<int>(std::floor(p.x() / cell + 0.5)) + half;
+        row = static_cast<int>(std::floor(p.y() / cell + 0.5)) + half;
+        return column >= 0 && row >= 0 && column < size() && row < size();
+    }
+    Eigen::Vector2d place(int column, int row) const {
+        return cell * Eigen::Vector2d(column - half, row - half);
+    }
+};
+
+/// The best places of all turns of a kernel over an image of evidence.
+std::vector<PlatePlacement> correlate(const PlateShape& shape, const Raster& raster,
+                                      const cv::Mat& evidence, double step_deg,
+                                      const std::function<cv::Mat(double)>& kernel_of,
+                                      std::size_t keep) {
+    const double whole = 2.0 * kPi / shape.symmetry();
+    const int turns = static_cast<int>(std::ceil(whole * kDegrees / step_deg));
+    std::vector<PlatePlacement> found;
+    for (int turn = 0; turn < turns; ++turn) {
+        PlatePlacement placement;
+        placement.angle = whole * turn / turns;
+        cv::Mat response;
+        cv::filter2D(evidence, response, CV_32F, kernel_of(placement.angle), cv::Point(-1, -1), 0.0,
+                     cv::BORDER_CONSTANT);
+        // The best few of each turn: the next best lies beside the best unless that is taken out.
+        for (std::size_t k = 0; k < keep; ++k) {
+            double score = 0.0;
+            cv::Point at;
+            cv::minMaxLoc(response, nullptr, &score, nullptr, &at);
+            placement.score = score;
+            placement.middle = raster.place(at.x, at.y);
+            found.push_back(placement);
+            const int around =
+                static_cast<int>(std::ceil(kSamePlace * shape.least_side() / raster.cell));
+            cv::circle(response, at, around, cv::Scalar(-1e9), cv::FILLED);
+        }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    std::vector<PlatePlacement> best;
+    for (const PlatePlacement& placement : found) {
+        const bool known = std::any_of(best.begin(), best.end(), [&](const auto& other) {
+            const double off = std::remainder(placement.angle - other.angle, whole);
+            return std::abs(off) * kDegrees < kSameTurn &&
+                   (placement.middle - other.middle).norm() < 1.5 * kSamePlace * shape.least_side();
+        });
+        if (!known) best.push_back(placement);
+        if (best.size() == keep) break;
+    }
+    return best;
+}
+
+cv::Mat evidence_of(const RayBundle& bundle, const Raster& raster) {
+    const cv::Mat zero = cv::Mat::zeros(raster.size(), raster.size(), CV_32F);
+    cv::Mat hits = zero.clone(), misses = zero.clone(), hidden = zero.clone();
+    for (const PlaneRay& ray : bundle.rays) {
+        int column, row;
+        if (!raster.at(ray.place, column, row)) continue;
+        const Told told = bundle.told(ray);
+        cv::Mat& counts = told == Told::hit ? hits : told == Told::miss ? misses : hidden;
+        counts.at<float>(row, column) += 1.0F;
+    }
+    std::vector<float> held;
+    for (int row = 0; row < raster.size(); ++row)
+        for (int column = 0; column < raster.size(); ++column)
+            if (const float count = hits.at<float>(row, column); count > 0.0F)
+                held.push_back(count);
+    double expected = 0.0;
+    if (!held.empty()) {
+        const auto middle = held.begin() + static_cast<std::ptrdiff_t>(held.size() / 2);
+        std::nth_element(held.begin(), middle, held.end());
+        expected = static_cast<double>(*middle);
+    }
+    cv::Mat evidence = zero.clone();
+    for (int row = 0; row < raster.size(); ++row)
+        for (int column = 0; column < raster.size(); ++column) {
+            const float h = hits.at<float>(row, column), m = misses.at<float>(row, column);
+            float& e = evidence.at<float>(row, column);
+            if (h + m > 0.0F)
+                e = (h - m) / (h + m);
+            else if (hidden.at<float>(row, column) == 0.0F && expected > kExpected)
+                e = -1.0F;
+        }
+    return evidence;
+}
+
+}  // namespace
+
+std::vector<PlatePlacement> place_plate(const PlateShape& shape, const RayBundle& rays,
+                                        std::size_t keep) {
+    const double cell = shape.least_side() / kCellsInSide;
+    const Raster raster(cell, rays.radius);
+    const double ring = kRingShare * shape.least_side();
+    const Raster small(cell, shape.radius() + ring);
+    const auto kernel_of = [&](double angle) {
+        cv::Mat kernel = cv::Mat::zeros(small.size(), small.size(), CV_32F);
+        const Eigen::Rotation2Dd to_board(-angle);
+        std::vector<std::pair<int, std::size_t>> kinds;
+        std::array<double, 3> counts{};
+        for (int row = 0; row < small.size(); ++row)
+            for (int column = 0; column < small.size(); ++column) {
+                const Eigen::Vector2d p = to_board * small.place(column, row);
+                std::size_t kind = 3;
+                if (shape.in_outline(p))
+                    kind = shape.hole_at(p) >= 0 ? 1 : 0;
+                else if (shape.distance_to_outline(p) <= ring)
+                    kind = 2;
+                if (kind == 3) continue;
+                counts[kind] += 1.0;
+                kinds.emplace_back(row * small.size() + column, kind);
+            }
+        const double parts = (counts[0] > 0.0) + (counts[1] > 0.0) + (counts[2] > 0.0);
+        for (const auto& [at, kind] : kinds)
+            kernel.at<float>(at / small.size(), at % small.size()) =
+                static_cast<float>((kind == 0 ? 1.0 : -1.0) / (parts * counts[kind]));
+        return kernel;
+    };
+    return correlate(shape, raster, evidence_of(rays, raster), kPlacementStep, kernel_of, keep);
+}
+
+std::vector<PlatePlacement> place_edges(const PlateShape& shape,
+                                        const std::vector<Eigen::Vector2d>& points, double radius,
+                                        std::size_t keep) {
+    const double cell = shape.least_side() / kEdgeCellsInSide;
+    const Raster raster(cell, radius);
+    cv::Mat evidence = cv::Mat::zeros(raster.size(), raster.size(), CV_32F);
+    for (const Eigen::Vector2d& p : points) {
+        int column, row;
+        if (raster.at(p, column, row)) evidence.at<float>(row, column) = 1.0F;
+    }
+    // A side's points err by about a cell: each counts for its neighbours too.
+    cv::dilate(evidence, evidence, cv::Mat::ones(3, 3, CV_8U));
+    const Raster small(cell, shape.radius() + 2.0 * cell);
+    const auto kernel_of = [&](double angle) {
+        cv::Mat kernel = cv::Mat::zeros(small.size(), small.size(), CV_32F);
+        const Eigen::Rotation2Dd to_board(-angle);
+        double on = 0.0, off = 0.0;
+        for (int row = 0; row < small.size(); ++row)
+            for (int column = 0; column < small.size(); ++column) {
+                const Eigen::Vector2d p = to_board * small.place(column, row);
+                const double inside = shape.edge(p).inside;
+                float& k = kernel.at<float>(row, column);
+                if (std::abs(inside) <= cell)
+                    k = 1.0F;
+                else if (shape.in_outline(p) && std::abs(inside) > 3.0 * cell)
+                    k = -1.0F;
+                on += k > 0.0F;
+                off += k < 0.0F;
+            }
+        for (int row = 0; row < small.size(); ++row)
+            for (int column = 0; column < small.size(); ++column) {
+                float& k = kernel.at<float>(row, column);
+                k /= static_cast<float>(k > 0.0F ? on : std::max(off, 1.0));
+            }
+        return kernel;
+    };
+    return correlate(shape, raster, evidence, kEdgeStep, kernel_of, keep);
+}
+
+}  // namespace petal
