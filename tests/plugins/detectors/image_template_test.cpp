@@ -88,9 +88,9 @@ INSTANTIATE_TEST_SUITE_P(
                       TemplateView{1.5, 30, 30, 0}, TemplateView{2.0, -30, 25, 30},
                       TemplateView{0.8, 20, -10, 0}));
 
-// The covariance of a pose has rank six; over six boards its 36 numbers have a mean square that is
-// 1 within a factor of 3 (chi-square, 36 degrees: 0.6 to 1.5 in 95 of 100), with room for the
-// tolerance that a rendered board does not have.
+// The covariance of a pose has rank six. The 36 numbers of six boards have a mean square of 1 where
+// it is right (0.6 to 1.5 in 95 of 100); a board that is rendered without any tolerance of its cut
+// comes out below, hardly anything may come out above.
 TEST(ImageTemplate, CovarianceSaysHowFarCornersAreOff) {
     const Target target = load_target(kTemplateTarget);
     const auto camera = make_camera(640, 480, 500.0);
@@ -120,7 +120,7 @@ TEST(ImageTemplate, CovarianceSaysHowFarCornersAreOff) {
         EXPECT_EQ(rank, 6);
         freedoms += rank;
     }
-    EXPECT_GT(squares / freedoms, 1.0 / 6.0);
+    EXPECT_GT(squares / freedoms, 0.1);
     EXPECT_LT(squares / freedoms, 3.0);
     RecordProperty("nees_per_freedom", std::to_string(squares / freedoms));
 }
