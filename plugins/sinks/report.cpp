@@ -116,8 +116,11 @@ void Report::finish(Run& run) {
     const html::Traced result(document);
     page.title = "Calibration of camera and LiDAR: " + document.at("verdict").get<std::string>();
     page.header = report_header(result);
-    page.sections = {verdict_section(result), pose_section(result), trust_section(result),
-                     residual_section(result)};
+    page.sections = {verdict_section(result), pose_section(result)};
+    if (!extrinsics.cameras.empty()) {
+        page.sections.push_back(trust_section(result));
+        page.sections.push_back(residual_section(result));
+    }
     if (run.wired("cloud")) {
         page.sections.push_back(view_section(report_view(
             run, extrinsics, scenes, places, static_cast<std::size_t>(params_.view_points))));

@@ -165,12 +165,19 @@ Section verdict_section(const Traced& result) {
             text += "<li>" + result.text(in_row("/reasons", i)) + "</li>\n";
         text += "</ul>\n";
     }
-    const std::string by = result.at("/orientation/decided_by").get<std::string>();
-    text += "<p>Which corner of the image is which of the LiDAR: " + order_sentence(by);
-    if (result.at("/orientation/runner_up_rms_ratio") != 0.0)
-        text += " The best other order has " +
-                result.number("/orientation/runner_up_rms_ratio", {1.0, 1}) + " times the error.";
-    text += "</p>\n";
+    if (result.at("/extrinsics").empty()) {
+        text +=
+            "<p>What the detectors looked for and how near they came stands among the notes of "
+            "<code>run.json</code>.</p>\n";
+    } else {
+        const std::string by = result.at("/orientation/decided_by").get<std::string>();
+        text += "<p>Which corner of the image is which of the LiDAR: " + order_sentence(by);
+        if (result.at("/orientation/runner_up_rms_ratio") != 0.0)
+            text += " The best other order has " +
+                    result.number("/orientation/runner_up_rms_ratio", {1.0, 1}) +
+                    " times the error.";
+        text += "</p>\n";
+    }
     for (std::size_t i = 0; i < result.at("/extrinsics").size(); ++i)
         text += advice(result, in_row("/extrinsics", i));
     return {"verdict", "Verdict", text};

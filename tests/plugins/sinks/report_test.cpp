@@ -158,6 +158,8 @@ TEST(ReportTest, WithoutAPoseItSaysWhyAndShowsWhatWasFound) {
     EXPECT_THAT(markup, HasSubstr("<span class=\"badge bad\">Not usable</span>"));
     EXPECT_THAT(markup, HasSubstr("<span data-from=\"/reasons/0\">nothing to solve</span>"));
     EXPECT_THAT(markup, HasSubstr("No camera was solved"));
+    EXPECT_THAT(markup, HasSubstr("notes of <code>run.json</code>"));
+    EXPECT_THAT(markup, Not(HasSubstr("orders fit alike"))) << "there was nothing to order";
     EXPECT_THAT(markup, HasSubstr("no pose of this camera, so only what it found itself"));
     EXPECT_THAT(markup, HasSubstr("data:image/jpeg"));
 }
