@@ -9,7 +9,35 @@ void ImageTemplate::describe(Spec<Params>& spec) {
     spec.summary(
         "Finds boards in images by fitting the target's outline and holes, of any shape, to the "
         "edges of the raw image.");
-    spec.doc(R"(Takes the target file as one rigid template and asks for its pose in the camera.)");
+    spec.doc(
+        R"(Takes the target file as one rigid plate - its outline, and holes that are polygons or round - and asks where it must
+stand for its edges to lie on those of the raw image, under the camera's own distortion. No code is made for one target. The
+model with its formulas, and what was measured, stand in docs/image_template.md.
+
+1. **Regions.** Global thresholds at quantiles, local means at three scales, and for faint things local means of the smoothed
+   image, less the noise that is measured in it. Kept are dark regions with the moments of a hole, and bright ones with the moments
+   of the outline, up to an affine map.
+2. **Guesses.** Two regions give an affine map and with it the places of the other holes; a plate gives one by itself.
+   Each allows two poses. A glance at edges and plate puts the likeliest first.
+3. **Fit.** The pose, six numbers, by generalised least squares over sub-pixel edge points all along the holes and the
+   outline. The points of a side share an offset, whose size the board itself tells; so a side that is not where the geometry puts
+   it - a kerb behind a hole, a shadow - loses its weight. Fitted along: how much smaller holes and larger plates look, and how
+   bright the walls of the plate's thickness are (`model_walls`).
+4. **Evidence.** Which share of the edges is in place beyond chance, of the holes and of the outline; whether the plate is evenly
+   bright between them. Windows and tiles have holes in place but no outline. A print that looks like the target is a board here: the
+   LiDAR tells that it has no holes.
+
+Corners are those of the template under the pose, row by row from the top left as the image shows the board. `joint_covariance` is
+that of the pose, of rank six: all corners of a board move together.
+
+Quality of a board: `holes_seen` (as regions; 0: by its plate), `sides_measured` (that the fit relies on, with the outline's),
+`edges_in_place`, `outline_in_place`, `plate_even` (1 is all), `contrast` (edge over plate), `edge_sigma_px` (of one edge point),
+`hole_scatter_m` and `outline_scatter_m` (1 sigma of the sides about the pose), `hole_inset_m`, `mean_sigma_px` (of a corner).
+
+Limits: bright plate, darker holes; holes of 5 px or more (`min_hole_px`); half of the plate in the image; tilts to about 70
+deg. Where more than half of a hole's rim shows something as bright as the plate, in most of its holes, the board is lost. The
+camera's intrinsics must be right: a wrong focal length becomes a wrong distance. With `--debug`, and always when no board was found, the
+stage saves a picture of regions, refused places with the reason, and boards.)");
     spec.role("image_board_detector");
     spec.reads<Images>("images", "the photos of a scene, each with its camera's intrinsics");
     spec.writes<ImageBoards>(
@@ -48,7 +76,10 @@ void ImageTemplate::describe(Spec<Params>& spec) {
     spec.param("min_evidence", &Params::min_evidence)
         .unit("1")
         .within(0.0, 1.0)
-        .doc("product of these three shares: a board may be weak in one of them, not in all");
+        .doc(
+            "product of the last two shares: a board may be hidden in part, but that does not look "
+            "like "
+            "one in both");
     spec.param("max_scatter", &Params::max_scatter)
         .unit("1")
         .within(1e-4, 1.0)

@@ -18,11 +18,6 @@ constexpr Eigen::Index kUnknowns = 12;  ///< pose, inset, hole walls, outset, pl
 using Vector12d = Eigen::Matrix<double, kUnknowns, 1>;
 using Matrix12d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-/// px: no photo's edge points scatter less.
-constexpr double kLeastEdgeSigma = 0.03;
-/// An edge of strength s lies where it seems to within this times noise / s, px: for the sampler's
-/// filter of 1 px and a lens that blurs by 0.7 px.
-constexpr double kNoiseToPlace = 1.4;
 /// Neighbouring samples share pixels: they count as half as many independent ones.
 constexpr double kSamplesShare = 2.0;
 constexpr double kTurnPrior = 0.3;      ///< rad, 1 sigma of one step; keeps weak views in reach
@@ -35,20 +30,12 @@ constexpr double kWallBrightnessSigma = 0.3;
 constexpr double kFarOff = 0.12;
 constexpr double kPriorSides = 2.0;  ///< `tolerance` counts as so many sides
 constexpr double kCauchy = 2.4;
-constexpr double kInPlacePx = 0.5;        ///< px, and
-constexpr double kInPlaceSigmas = 2.5;    ///< of a sample's noise
-constexpr double kLeastStrength = 0.2;    ///< of the usual edge of the board's holes
-constexpr double kLeastNoiseRatio = 1.0;  ///< of the noise
 
 double median_value(std::vector<double> values) {
     if (values.empty()) return 0.0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
-}
-
-double edge_sigma(double noise, double strength) {
-    return std::hypot(kLeastEdgeSigma, kNoiseToPlace * noise / std::max(strength, 1e-3));
 }
 
 /// How far an edge moves over a wall's width, 0 to 1 where the wall is between plate and what lies
@@ -176,7 +163,7 @@ bool TemplateFit::solve(FittedBoard& board, double pixels_share, int rounds) con
         Vector12d right = weight.cwiseProduct(expected);
         for (std::size_t i = 0; i < count; ++i) {
             const EdgeSample& sample = board.samples[i];
-            if (!sample.seen || sample.strength < kLeastStrength * board.usual_strength) continue;
+            if (!sample.seen || sample.strength < kLeastEdgeShare * board.usual_strength) continue;
             SideEffect& side = effects[sample.side];
             const Vector12d row = design_of(sample);
             const double w = robust[i] / (pixels_share * unit * unit * sigma[i] * sigma[i]);
@@ -222,7 +209,7 @@ bool TemplateFit::solve(FittedBoard& board, double pixels_share, int rounds) con
         }
         for (std::size_t i = 0; i < count; ++i) {
             const EdgeSample& sample = board.samples[i];
-            if (!sample.seen || sample.strength < kLeastStrength * board.usual_strength) continue;
+            if (!sample.seen || sample.strength < kLeastEdgeShare * board.usual_strength) continue;
             const Eigen::Vector2d& effect = effects[sample.side].effect;
             left[i] =
                 sample.offset - design_of(sample).dot(solution) - effect(0) - sample.u * effect(1);
@@ -266,40 +253,6 @@ double TemplateFit::plate_grey(const TemplatePose& pose) const {
             greys.push_back(*grey);
     }
     return median_value(greys);
-}
-
-void TemplateFit::count(FittedBoard& board, const EdgeReach& reach) const {
-    board.sides.resize(model_.sides().size());
-    std::vector<double> sums(board.sides.size(), 0.0), seen(board.sides.size(), 0.0);
-    for (const EdgeSample& sample : board.samples) {
-        FittedSide& side = board.sides[sample.side];
-        if (!sample.in_image) continue;
-        ++side.samples;
-        const double range = reach.range(model_.hole_size() * sample.px_per_m);
-        const bool weak =
-            sample.strength < kLeastNoiseRatio * noise_ ||
-            (!sample.outline && sample.strength < kLeastStrength * board.usual_strength);
-        if (!sample.seen || weak) {
-            side.chance += std::min(1.0, kInPlacePx / range);
-            continue;
-        }
-        const double off = sample.offset - sample.shifted(board.shifts);
-        const double allowed =
-            std::hypot(kInPlacePx, kInPlaceSigmas * edge_sigma(noise_, sample.strength));
-        side.in_place += std::abs(off) < allowed ? 1 : 0;
-        side.chance += std::min(1.0, allowed / range);
-        sums[sample.side] += off;
-        seen[sample.side] += 1.0;
-    }
-    for (std::size_t s = 0; s < board.sides.size(); ++s)
-        board.sides[s].offset_px = sums[s] / std::max(seen[s], 1.0);
-}
-
-double TemplateFit::holes_in_place(const FittedBoard& board) const {
-    EdgesInPlace holes;
-    for (std::size_t s = 0; s < board.sides.size(); ++s)
-        if (!model_.sides()[s].outline) board.sides[s].add_to(holes);
-    return holes.share();
 }
 
 }  // namespace petal

@@ -56,6 +56,13 @@ struct FittedBoard {
     bool converged = false;
 };
 
+/// An edge of a hole that is weaker than this part of the board's usual one is not its edge.
+inline constexpr double kLeastEdgeShare = 0.2;
+
+/// How well an edge point of that strength is placed, px, 1 sigma; `noise` is the image's, grey
+/// levels.
+double edge_sigma(double noise, double strength);
+
 /// The pose (six numbers) that lets the template's edges lie on those of the image, by generalised
 /// least squares over all edge samples: a sample has noise of its own (its edge's strength over the
 /// image's noise), the samples of a side share an offset and a tilt (a side that is cut, lit or

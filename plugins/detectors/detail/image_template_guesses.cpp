@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
-#include <optional>
 #include <set>
 
 #include "detectors/detail/image_layout.hpp"
@@ -97,7 +96,8 @@ class Guesser {
             if (check) check();
             if (model_.holes() == 1)
                 for (int turn = 0; turn < 24; ++turn)
-                    try_map(anchor.root * turn_by(turn * kPi / 12.0) * roots_[0].inverse(), anchor, 0, 0.0);
+                    try_map(anchor.root * turn_by(turn * kPi / 12.0) * roots_[0].inverse(), anchor,
+                            0, 0.0);
             else
                 pair_up(anchor);
         }
@@ -135,10 +135,9 @@ class Guesser {
                                     std::abs(std::log(areas)) / std::log(kGuessAreaRatio));
         try_map(anchor.root * turn_by(angle) * roots_[i].inverse(), anchor, i, doubt);
     }
-
     /// `doubt` about a pair, 0 to 1.
     void try_map(const Eigen::Matrix2d& linear, const IdealRegion& anchor, std::size_t hole,
- double doubt) {
+                 double doubt) {
         if (!model_.turns().is_upright(linear)) return;
         const Eigen::Vector2d stretch = linear.jacobiSvd().singularValues();
         if (stretch(1) < kLeastForeshortening * stretch(0)) return;

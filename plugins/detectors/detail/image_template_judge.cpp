@@ -16,6 +16,8 @@ namespace petal {
 namespace {
 
 constexpr double kLeastOfEachHole = 0.15;  ///< in place
+/// No hole is darker than black; the rest is for edges that sharpening lets overshoot.
+constexpr double kMostContrast = 1.3;
 constexpr int kLeastOutlineSides = 2;
 constexpr double kOutlineSide = 0.6;  ///< of a side's samples in place, beyond chance
 /// The plate is even where it differs by less than this part of the holes' edge, and 3 sigma.
@@ -138,12 +140,16 @@ TemplateVerdict judge_board(const FittedBoard& board, const EdgeSampler& edges,
     const double scatter = board.hole_scatter / model.hole_size();
     const double inset = board.shifts.inset / model.hole_size();
     const double pixels = hole_pixels(board.pose, model, camera);
-    const double evidence = verdict.edges * verdict.outline * verdict.plate;
+    const double evidence = verdict.outline * verdict.plate;
     if (!plate.whole)
         verdict.rejected = "the board reaches out of the image";
     else if (verdict.edges < limits.min_edges)
         verdict.rejected = printed("%.2f of the holes' edges are in place (min_edges %.2f)",
                                    verdict.edges, limits.min_edges);
+    else if (verdict.contrast > kMostContrast)
+        verdict.rejected = printed(
+            "its holes are darker than the plate by %.2f of the plate's brightness (most %.2f)",
+            verdict.contrast, kMostContrast);
     else if (fewest < kLeastOfEachHole)
         verdict.rejected =
             printed("a hole has %.2f of its edges in place (least %.2f)", fewest, kLeastOfEachHole);
@@ -166,8 +172,8 @@ TemplateVerdict judge_board(const FittedBoard& board, const EdgeSampler& edges,
             verdict.outline, static_cast<double>(verdict.outline_sides), limits.min_outline);
     else if (evidence < limits.min_evidence)
         verdict.rejected =
-            printed("edges, outline and plate together are %.2f in place (min_evidence %.2f)",
-                    evidence, limits.min_evidence);
+            printed("outline and plate together are %.2f in place (min_evidence %.2f)", evidence,
+                    limits.min_evidence);
     return verdict;
 }
 

@@ -11,10 +11,10 @@ namespace petal {
 
 /// What a region of the image must show to be a board.
 struct TemplateEvidence {
-    double min_edges = 0.45;     ///< share of the holes' edges that are in place
-    double min_outline = 0.5;    ///< share of the outline that is
-    double min_plate = 0.8;      ///< share of the plate that is of one brightness
-    double min_evidence = 0.36;  ///< product of the three
+    double min_edges = 0.35;     ///< share of the holes' edges that are in place
+    double min_outline = 0.55;   ///< share of the outline that is
+    double min_plate = 0.7;      ///< share of the plate that is of one brightness
+    double min_evidence = 0.57;  ///< product of the last two
     double max_scatter = 0.02;   ///< of the sides about the pose, over a hole's size
     double max_inset = 0.04;     ///< of the holes' sides beside the target's, over a hole's size
     double min_hole_px = 5.0;    ///< a hole's size in the image

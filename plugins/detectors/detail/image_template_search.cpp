@@ -19,8 +19,8 @@ namespace petal {
 namespace {
 
 /// Guesses looked at, the likeliest first, and fits begun; far more than there can be boards.
-constexpr std::size_t kMostGuesses = 2500;
-constexpr int kMostFits = 300;
+constexpr std::size_t kMostGuesses = 1500;
+constexpr int kMostFits = 150;
 /// What a hole that was seen adds to a glance's figure.
 constexpr double kHoleSeen = 0.25;
 /// A coarse fit with fewer edges in place is not worth a fine one.
