@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "petal/calibration/read_result.hpp"
 #include "petal/testing/stage_harness.hpp"
 #include "plugins/sources/temporary_folder.hpp"
 
