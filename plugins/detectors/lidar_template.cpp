@@ -99,16 +99,15 @@ void LidarTemplate::run(Run& run) {
     boards.lidar = cloud.sensor_label;
     int number = 0;
     for (const PlateAttempt& attempt : attempts) {
-        if (attempt.board) {
+        if (!attempt.finding.empty())
+            boards.findings.push_back("target '" + names.name + "': " + attempt.finding);
+        if (attempt.board)
             boards.boards.push_back(*attempt.board);
-        } else {
+        else
             run.log(LogLevel::debug,
                     printed("plate at (%.2f, %.2f, %.2f) m: ", attempt.plate.centre.x(),
                             attempt.plate.centre.y(), attempt.plate.centre.z()) +
                         attempt.miss + "; " + attempt.threshold);
-            if (!attempt.finding.empty())
-                boards.findings.push_back("target '" + names.name + "': " + attempt.finding);
-        }
     }
     run.log(LogLevel::info, std::to_string(boards.boards.size()) + " boards on " +
                                 std::to_string(attempts.size()) + " plates");

@@ -237,6 +237,7 @@ bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle ray
     stretched[kStretchX] = stretched[kStretchY] = true;
     if (climb(shape, priors, fit.zone, stretched, kFitSteps, other.state)) {
         fit.stretch = other.state.stretch;
+        other.side_common = common_of(shape, evaluate_plate(shape, other.state, priors, fit.zone));
         fit.stretch_sigma = covariance_of(shape, other, priors, true)
                                 .diagonal()
                                 .segment<2>(kStretchX)

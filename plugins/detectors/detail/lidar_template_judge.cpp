@@ -19,6 +19,7 @@ constexpr double kLeastExpected = 3.0;  ///< rays in an opening: fewer are no ev
 constexpr double kHidden = 0.5;         ///< share of rays stopped before the plane
 constexpr int kJudgeFifths = 5;
 constexpr double kJudgeLeastPlate = 0.8;  ///< share of hits on the plate
+constexpr double kDoubtful = 0.01;        ///< of stretch
 constexpr double kFindingSigmas = 5.0;
 
 struct Opening {
@@ -152,6 +153,12 @@ PlateVerdict judge_plate(const PlateTemplate& target, const PlateLimits& limits,
             verdict.finding = verdict.miss + "; is the target's file that of the board?";
     } else {
         verdict.board = true;
+        if (((fit.stretch.cwiseAbs() - kFindingSigmas * fit.stretch_sigma).array() > 0.0).any() &&
+            stretch > kDoubtful)
+            verdict.finding = printed(
+                "a board whose sides stand %+.1f %% (x) and %+.1f %% (y) farther apart than the "
+                "target's; is the target's file that of the board?",
+                fit.stretch.x() * 100.0, fit.stretch.y() * 100.0);
     }
     return verdict;
 }

@@ -12,7 +12,7 @@
 namespace petal {
 
 struct PlateLimits {
-    double min_gain = 0.5;
+    double min_gain = 0.35;
     double min_open = 0.6;
     double min_outline = 0.5;
     double max_flatness = 0.006;
