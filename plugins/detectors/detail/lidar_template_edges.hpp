@@ -14,7 +14,7 @@
 namespace petal {
 
 struct PlateEdgeLimits {
-    double min_edge_coverage = 0.6;
+    double min_edge_coverage = 0.5;
     double max_inside = 0.15;
     double max_edge_rms = 0.012;
     int max_edge_points = 20000;
