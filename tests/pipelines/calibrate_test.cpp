@@ -60,6 +60,13 @@ TEST_F(Calibrate, FourPlacementsGiveThePoseAndSayHowWell) {
     EXPECT_TRUE(page == read_text(folder_ / "out" / "report.html"));
 }
 
+TEST_F(Calibrate, TheLettersDetectorsMayTakeTheTemplatesPlace) {
+    const json result = calibrated("set_four_diverse", 5.0, 0,
+                                   "--seed 3 --with " + pipeline("variants/letter_detectors.json"));
+    EXPECT_EQ(result["verdict"], "usable") << result["reasons"];
+    EXPECT_LT(result["metrics"]["truth.drift_px"].get<double>(), 0.75);
+}
+
 TEST_F(Calibrate, OneFlatBoardIsNoCalibration) {
     const json result = calibrated("set_one_flat", 5.0, 4);
     EXPECT_NE(result["verdict"], "usable");

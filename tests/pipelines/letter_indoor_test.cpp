@@ -122,7 +122,8 @@ TEST_F(LetterIndoor, SameBytesOnOneAndTwoThreads) {
 
 TEST_F(LetterIndoor, VariantsRun) {
     PETAL_NEEDS_REAL_DATA();
-    for (const std::string name : {"solver_pnp", "solver_joint", "plain_lines", "image_template"}) {
+    for (const std::string name :
+         {"solver_pnp", "solver_joint", "plain_lines", "image_template", "lidar_template"}) {
         const Ended ended = run_real(name, "--with " + pipeline("variants/" + name + ".json"));
         EXPECT_EQ(ended.exit_code, 4) << name << ": " << ended.err;
         expect_contract(json::parse(read_text(folder_ / name / "result.json")));
