@@ -48,7 +48,7 @@ TEST(SeedRange, SaysWhatIsWrong) {
     }
 }
 
-Comparison read(const std::string& text) {
+Comparison comparison_of(const std::string& text) {
     auto checked = read_comparison_text(text, "dir/c.json");
     for (const Problem& problem : checked.problems) ADD_FAILURE() << to_string(problem);
     return checked.comparison.value();
@@ -62,7 +62,7 @@ std::string problems_of(const std::string& text) {
     return all;
 }
 
-const char* const kWhole = R"({
+const char* const kWholeComparison = R"({
   "$schema": "x", "petal_compare": 1, "about": "a test",
   "base": "../letter.json",
   "patch": { "stages": { "overlay": null } },
@@ -84,7 +84,7 @@ const char* const kWhole = R"({
 })";
 
 TEST(ComparisonReader, ReadsAllOfIt) {
-    const Comparison c = read(kWhole);
+    const Comparison c = comparison_of(kWholeComparison);
     EXPECT_EQ(c.name, "c");
     ASSERT_EQ(c.variants.size(), 7U);
     EXPECT_EQ(c.reference, 1U);
@@ -114,8 +114,8 @@ TEST(ComparisonReader, ReadsAllOfIt) {
 }
 
 TEST(ComparisonReader, HasDefaults) {
-    const Comparison c =
-        read(R"({"petal_compare": 1, "base": "p.json", "metrics": {"m": {"better": "lower"}}})");
+    const Comparison c = comparison_of(
+        R"({"petal_compare": 1, "base": "p.json", "metrics": {"m": {"better": "lower"}}})");
     ASSERT_EQ(c.variants.size(), 1U);
     EXPECT_EQ(c.variants[0].name, "base");
     ASSERT_EQ(c.data.size(), 1U);
@@ -177,7 +177,7 @@ TEST(ComparisonReader, TellsWhatIsMissing) {
 }
 
 std::string refused(const Selection& selection) {
-    Comparison c = read(kWhole);
+    Comparison c = comparison_of(kWholeComparison);
     try {
         apply(selection, c);
     } catch (const UsageError& error) {
@@ -187,7 +187,7 @@ std::string refused(const Selection& selection) {
 }
 
 TEST(Selection, ChoosesVariantsDataSeedsAndMetrics) {
-    Comparison c = read(kWhole);
+    Comparison c = comparison_of(kWholeComparison);
     Selection selection;
     selection.only = {"c", "real"};
     selection.seeds = "7..8";

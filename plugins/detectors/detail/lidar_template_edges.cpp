@@ -13,7 +13,7 @@
 namespace petal {
 namespace {
 
-constexpr int kFitSteps = 20;
+constexpr int kEdgeFitSteps = 20;
 constexpr int kWeighedFitSteps = 4;  ///< last ones: each side weighs as the covariance takes it
 constexpr double kFirstReach = 0.025, kEdgesReach = 0.015;  ///< m: a point is on a side
 constexpr double kEdgeTukey = 4.685;                        ///< 95 % efficient for normal errors
@@ -209,9 +209,9 @@ bool fit_edges(const PlateTemplate& target, const PlateBeam& beam,
         add_equations(equations.plane, plane_sigma, weighed ? &plane : nullptr, matrix, right);
         return true;
     };
-    for (int step = 0; step < kFitSteps + kWeighedFitSteps; ++step) {
-        const bool weighed = step >= kFitSteps;
-        if (!set_up(step < kFitSteps / 3 ? kFirstReach : kEdgesReach, !weighed, weighed))
+    for (int step = 0; step < kEdgeFitSteps + kWeighedFitSteps; ++step) {
+        const bool weighed = step >= kEdgeFitSteps;
+        if (!set_up(step < kEdgeFitSteps / 3 ? kFirstReach : kEdgesReach, !weighed, weighed))
             return false;
         const Eigen::LDLT<Matrix8> solver(matrix);
         if (solver.info() != Eigen::Success || !solver.isPositive()) return false;

@@ -19,7 +19,7 @@ constexpr double kNearby = 0.12;         ///< of the lesser side: 1 sigma of the
 constexpr double kReturned = 0.75;       ///< where more of the expected rays returned, all did
 constexpr double kSilentLeastExpected = 5.0;  ///< rays in a hole: fewer tell no share
 
-struct Opening {
+struct SilentOpening {
     double expected = 0.0, missed = 0.0;
 };
 
@@ -44,8 +44,8 @@ double add_silent(const PlateTemplate& target, const RayBundle& bundle, double m
                 area += square;
             }
     // By hole; by side of the outline behind them.
-    std::vector<Opening> openings(shape.hole_count() + target.all.side_count());
-    const auto opening_of = [&](const Eigen::Vector2d& p, int side) -> Opening& {
+    std::vector<SilentOpening> openings(shape.hole_count() + target.all.side_count());
+    const auto opening_of = [&](const Eigen::Vector2d& p, int side) -> SilentOpening& {
         const int hole = shape.hole_at(p);
         return openings[hole >= 0 ? static_cast<std::size_t>(hole)
                                   : shape.hole_count() + static_cast<std::size_t>(side)];
@@ -90,7 +90,7 @@ double add_silent(const PlateTemplate& target, const RayBundle& bundle, double m
             const PlateShape::Edge edge = shape.edge(p);
             // On the plate: the opening that the nearest edge leads to.
             const Eigen::Vector2d in = p - (edge.inside + margin) * edge.inward;
-            const Opening& opening = opening_of(edge.inside < 0.0 ? p : in, edge.side);
+            const SilentOpening& opening = opening_of(edge.inside < 0.0 ? p : in, edge.side);
             if (opening.expected < kSilentLeastExpected) continue;
             const double returned = opening.missed / opening.expected;
             if (returned > kReturned) continue;

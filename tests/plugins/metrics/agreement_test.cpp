@@ -32,7 +32,7 @@ mrpt::img::TCamera pinhole() {
     return camera;
 }
 
-Eigen::Isometry3d mounting() {
+Eigen::Isometry3d agreement_mounting() {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
     T.translation() << 0.04, -0.1, 0.02;
@@ -65,7 +65,7 @@ struct TwoBoards {
             for (const Eigen::Vector2d& p : corners)
                 board.corners.push_back(board.T_lidar_board * Eigen::Vector3d(p.x(), p.y(), 0.0));
             for (auto corner = board.corners.rbegin(); corner != board.corners.rend(); ++corner)
-                seen.corners.push_back(*model.project(mounting() * *corner));
+                seen.corners.push_back(*model.project(agreement_mounting() * *corner));
             seen.covariance.assign(16, 0.04 * Eigen::Matrix2d::Identity());
             lidar.boards.push_back(board);
             image.boards.insert(image.boards.begin(), seen);
@@ -78,7 +78,7 @@ Extrinsics known(double turned_deg, const std::string& camera = "CAMERA") {
     one.camera = camera;
     one.lidar = "LIDAR";
     one.T_camera_lidar =
-        Eigen::AngleAxisd(turned_deg / kDegrees, Eigen::Vector3d::UnitY()) * mounting();
+        Eigen::AngleAxisd(turned_deg / kDegrees, Eigen::Vector3d::UnitY()) * agreement_mounting();
     one.covariance = 1e-6 * Matrix6d::Identity();  // 1 mm and 0.06 deg
     return Extrinsics{{one}, Level::usable, {}};
 }
@@ -140,7 +140,7 @@ TEST(Agreement, AVagueResultThatAllowsTheMissIsWeak) {
     EXPECT_THAT(stage.reasons()[1], AllOf(HasSubstr("agrees only because"), HasSubstr("8.2 px")));
 
     // On the pixel, but nothing is proved.
-    vague.cameras[0].T_camera_lidar = mounting();
+    vague.cameras[0].T_camera_lidar = agreement_mounting();
     auto exact = held(vague);
     exact.fire();
     EXPECT_EQ(exact.verdict(), Level::weak);

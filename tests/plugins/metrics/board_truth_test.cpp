@@ -101,8 +101,8 @@ ImageBoards image_boards(std::vector<ImageBoard> boards,
     return all;
 }
 
-std::optional<double> told(const StageHarness& stage, const std::string& name,
-                           const std::string& scene = "") {
+std::optional<double> board_told(const StageHarness& stage, const std::string& name,
+                                 const std::string& scene = "") {
     for (const Metric& one : stage.out<Metrics>("metrics").values)
         if (one.name == "board_truth." + name && one.scene == scene) return one.value;
     return std::nullopt;
@@ -123,21 +123,21 @@ TEST(BoardTruthMetric, ErrorsOfTheLidarsPoseAreInTheBoardsOwnAxes) {
     stage.set("range_offset_sigma", Value(0.0));
     stage.give<LidarBoards>("lidar", lidar_boards({lidar_board(placed(3.0, 0.4), error, kSigmas)}));
     stage.fire();
-    EXPECT_NEAR(*told(stage, "board_1.lidar_x_m", "a"), 1e-4, 1e-6);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_y_m", "a"), -4e-4, 1e-6);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_z_m", "a"), 1e-4, 1e-6);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_turn_x_deg", "a"), 4e-4 * kDegrees, 1e-4);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_turn_z_deg", "a"), -4e-4 * kDegrees, 1e-4);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_x_sigmas", "a"), 0.1, 1e-3);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_y_sigmas", "a"), -0.2, 1e-3);
-    EXPECT_NEAR(*told(stage, "board_1.lidar_turn_x_sigmas", "a"), 0.2, 1e-3);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_x_m", "a"), 1e-4, 1e-6);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_y_m", "a"), -4e-4, 1e-6);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_z_m", "a"), 1e-4, 1e-6);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_turn_x_deg", "a"), 4e-4 * kDegrees, 1e-4);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_turn_z_deg", "a"), -4e-4 * kDegrees, 1e-4);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_x_sigmas", "a"), 0.1, 1e-3);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_y_sigmas", "a"), -0.2, 1e-3);
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_turn_x_sigmas", "a"), 0.2, 1e-3);
     // 0.1^2 + 0.2^2 + 0.2^2 + 0.2^2 + 0 + 0.1^2
-    EXPECT_NEAR(*told(stage, "board_1.lidar_nees", "a"), 0.14, 2e-3);
-    EXPECT_NEAR(*told(stage, "lidar_nees_mean"), 0.14, 2e-3);
-    EXPECT_NEAR(*told(stage, "lidar_y_rms_m"), 4e-4, 1e-6);
-    EXPECT_NEAR(*told(stage, "lidar_y_rms_sigmas"), 0.2, 1e-3);
-    EXPECT_DOUBLE_EQ(*told(stage, "lidar_found"), 1.0);
-    EXPECT_FALSE(told(stage, "image_found"));
+    EXPECT_NEAR(*board_told(stage, "board_1.lidar_nees", "a"), 0.14, 2e-3);
+    EXPECT_NEAR(*board_told(stage, "lidar_nees_mean"), 0.14, 2e-3);
+    EXPECT_NEAR(*board_told(stage, "lidar_y_rms_m"), 4e-4, 1e-6);
+    EXPECT_NEAR(*board_told(stage, "lidar_y_rms_sigmas"), 0.2, 1e-3);
+    EXPECT_DOUBLE_EQ(*board_told(stage, "lidar_found"), 1.0);
+    EXPECT_FALSE(board_told(stage, "image_found"));
     EXPECT_TRUE(stage.notes().empty());
 }
 
@@ -159,10 +159,10 @@ TEST(BoardTruthMetric, TheNearestOfTheBoardsFourOrdersCounts) {
         }
         stage.give<ImageBoards>("image", image_boards({seen}));
         stage.fire();
-        EXPECT_NEAR(*told(stage, "lidar_x_rms_m"), 0.0, 1e-9) << quarter;
-        EXPECT_NEAR(*told(stage, "lidar_turn_z_rms_deg"), 0.0, 1e-6) << quarter;
-        EXPECT_NEAR(*told(stage, "image_rms_px"), 0.5, 1e-9) << quarter;
-        EXPECT_NEAR(*told(stage, "board_1.image_shift_u_px", "a"), 0.3, 1e-9) << quarter;
+        EXPECT_NEAR(*board_told(stage, "lidar_x_rms_m"), 0.0, 1e-9) << quarter;
+        EXPECT_NEAR(*board_told(stage, "lidar_turn_z_rms_deg"), 0.0, 1e-6) << quarter;
+        EXPECT_NEAR(*board_told(stage, "image_rms_px"), 0.5, 1e-9) << quarter;
+        EXPECT_NEAR(*board_told(stage, "board_1.image_shift_u_px", "a"), 0.3, 1e-9) << quarter;
     }
 }
 
@@ -171,13 +171,13 @@ TEST(BoardTruthMetric, TheImagesErrorsInSigmas) {
     auto stage = with({truth});
     stage.give<ImageBoards>("image", image_boards({image_board(truth, {0.3, -0.4}, 0.1)}));
     stage.fire();
-    EXPECT_NEAR(*told(stage, "board_1.image_nees", "a"), 16.0 * 0.25 / 0.01, 1e-6);
-    EXPECT_NEAR(*told(stage, "board_1.image_nees_freedoms", "a"), 32.0, 1e-12);
-    EXPECT_NEAR(*told(stage, "image_nees_per_freedom"), 12.5, 1e-9);
+    EXPECT_NEAR(*board_told(stage, "board_1.image_nees", "a"), 16.0 * 0.25 / 0.01, 1e-6);
+    EXPECT_NEAR(*board_told(stage, "board_1.image_nees_freedoms", "a"), 32.0, 1e-12);
+    EXPECT_NEAR(*board_told(stage, "image_nees_per_freedom"), 12.5, 1e-9);
     // The mean of sixteen corners has a quarter of the sigma.
-    EXPECT_NEAR(*told(stage, "board_1.image_shift_u_sigmas", "a"), 12.0, 1e-9);
-    EXPECT_NEAR(*told(stage, "image_shift_v_rms_sigmas"), 16.0, 1e-9);
-    EXPECT_FALSE(told(stage, "lidar_found"));
+    EXPECT_NEAR(*board_told(stage, "board_1.image_shift_u_sigmas", "a"), 12.0, 1e-9);
+    EXPECT_NEAR(*board_told(stage, "image_shift_v_rms_sigmas"), 16.0, 1e-9);
+    EXPECT_FALSE(board_told(stage, "lidar_found"));
 }
 
 TEST(BoardTruthMetric, DirectionsThatTheCovarianceDoesNotKnowAreLeftOut) {
@@ -191,8 +191,8 @@ TEST(BoardTruthMetric, DirectionsThatTheCovarianceDoesNotKnowAreLeftOut) {
     auto stage = with({truth});
     stage.give<ImageBoards>("image", image_boards({seen}));
     stage.fire();
-    EXPECT_NEAR(*told(stage, "board_1.image_nees_freedoms", "a"), 2.0, 1e-12);
-    EXPECT_NEAR(*told(stage, "board_1.image_nees", "a"), 25.0, 1e-6);
+    EXPECT_NEAR(*board_told(stage, "board_1.image_nees_freedoms", "a"), 2.0, 1e-12);
+    EXPECT_NEAR(*board_told(stage, "board_1.image_nees", "a"), 25.0, 1e-6);
 }
 
 TEST(BoardTruthMetric, TheRangeOffsetIsAddedAlongTheRay) {
@@ -206,7 +206,7 @@ TEST(BoardTruthMetric, TheRangeOffsetIsAddedAlongTheRay) {
         board.T_lidar_board = Eigen::Translation3d(0.005 * ray) * board.T_lidar_board;
         stage.give<LidarBoards>("lidar", lidar_boards({board}));
         stage.fire();
-        return *told(stage, "lidar_nees_mean");
+        return *board_told(stage, "lidar_nees_mean");
     };
     // One sigma of the offset alone is 1; the detector's own sigmas make it less.
     EXPECT_LT(nees(0.005), 1.0);
@@ -225,16 +225,16 @@ TEST(BoardTruthMetric, FoundMissedAndFalseBoards) {
     stage.give<ImageBoards>("image", image_boards({image_board(truth[1], {1.0, 0.0}, 0.1)}));
     stage.fire();
     for (const char* scene : {"", "a"}) {
-        EXPECT_DOUBLE_EQ(*told(stage, "lidar_found", scene), 1.0);
-        EXPECT_DOUBLE_EQ(*told(stage, "lidar_missed", scene), 2.0);
-        EXPECT_DOUBLE_EQ(*told(stage, "lidar_false", scene), 1.0);
-        EXPECT_DOUBLE_EQ(*told(stage, "image_found", scene), 1.0);
-        EXPECT_DOUBLE_EQ(*told(stage, "image_missed", scene), 2.0);
-        EXPECT_DOUBLE_EQ(*told(stage, "image_false", scene), 0.0);
+        EXPECT_DOUBLE_EQ(*board_told(stage, "lidar_found", scene), 1.0);
+        EXPECT_DOUBLE_EQ(*board_told(stage, "lidar_missed", scene), 2.0);
+        EXPECT_DOUBLE_EQ(*board_told(stage, "lidar_false", scene), 1.0);
+        EXPECT_DOUBLE_EQ(*board_told(stage, "image_found", scene), 1.0);
+        EXPECT_DOUBLE_EQ(*board_told(stage, "image_missed", scene), 2.0);
+        EXPECT_DOUBLE_EQ(*board_told(stage, "image_false", scene), 0.0);
     }
-    EXPECT_TRUE(told(stage, "board_3.lidar_x_m", "a"));
-    EXPECT_FALSE(told(stage, "board_1.lidar_x_m", "a"));
-    EXPECT_TRUE(told(stage, "board_2.image_rms_px", "a"));
+    EXPECT_TRUE(board_told(stage, "board_3.lidar_x_m", "a"));
+    EXPECT_FALSE(board_told(stage, "board_1.lidar_x_m", "a"));
+    EXPECT_TRUE(board_told(stage, "board_2.image_rms_px", "a"));
 }
 
 TEST(BoardTruthMetric, WithoutCovarianceThereAreErrorsButNoSigmas) {
@@ -247,10 +247,10 @@ TEST(BoardTruthMetric, WithoutCovarianceThereAreErrorsButNoSigmas) {
     stage.give<LidarBoards>("lidar", lidar_boards({board}));
     stage.give<ImageBoards>("image", image_boards({seen}));
     stage.fire();
-    EXPECT_TRUE(told(stage, "board_1.lidar_x_m", "a"));
-    EXPECT_TRUE(told(stage, "board_1.image_rms_px", "a"));
+    EXPECT_TRUE(board_told(stage, "board_1.lidar_x_m", "a"));
+    EXPECT_TRUE(board_told(stage, "board_1.image_rms_px", "a"));
     for (const char* name : {"lidar_nees_mean", "image_nees_per_freedom", "lidar_x_rms_sigmas"})
-        EXPECT_FALSE(told(stage, name)) << name;
+        EXPECT_FALSE(board_told(stage, name)) << name;
 }
 
 TEST(BoardTruthMetric, RealScenesHaveNoFigures) {
@@ -274,7 +274,7 @@ TEST(BoardTruthMetric, OfSeveralCamerasOneIsChosen) {
         stage.fire();
         return stage;
     };
-    EXPECT_NEAR(*told(fire("RIGHT"), "image_rms_px"), 0.2, 1e-9);
+    EXPECT_NEAR(*board_told(fire("RIGHT"), "image_rms_px"), 0.2, 1e-9);
     const auto open = fire("");
     EXPECT_TRUE(open.out<Metrics>("metrics").values.empty());
     ASSERT_EQ(open.notes().size(), 1U);
