@@ -2,24 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "drawing.hpp"
+#include "petal/html/escape.hpp"
 
 namespace petal {
 namespace {
-
-std::string svg_escaped(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&')
-            escaped += "&amp;";
-        else if (c == '<')
-            escaped += "&lt;";
-        else if (c == '>')
-            escaped += "&gt;";
-        else
-            escaped += c;
-    }
-    return escaped;
-}
 
 std::string svg_path(const Drawing::Path& path) {
     std::string text = path.closed ? "<polygon points=\"" : "<polyline points=\"";
@@ -38,7 +24,7 @@ std::string svg_text(const Drawing::Text& text) {
                                  : "";
     return "<text x=\"" + at + "\" font-size=\"" + millimetres(text.height / 0.72) +
            "\" text-anchor=\"" + (text.middle ? "middle" : "start") + turn + "\">" +
-           svg_escaped(text.text) + "</text>\n";
+           html::escape(text.text) + "</text>\n";
 }
 
 }  // namespace
@@ -49,7 +35,7 @@ std::string svg_of(const Drawing& drawing) {
                        millimetres(size.x()) + "mm\" height=\"" + millimetres(size.y()) +
                        "mm\" viewBox=\"" + millimetres(low.x()) + " " + millimetres(low.y()) + " " +
                        millimetres(size.x()) + " " + millimetres(size.y()) + "\">\n<title>" +
-                       svg_escaped(drawing.title) + "</title>\n";
+                       html::escape(drawing.title) + "</title>\n";
     for (const DrawingLayer layer : {DrawingLayer::print, DrawingLayer::outline,
                                      DrawingLayer::holes, DrawingLayer::dimensions}) {
         // Crisp, or the cells of a marker show seams.

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <system_error>
 #include <utility>
 
 #include "detectors/detail/image_input.hpp"
@@ -66,19 +65,9 @@ ImageContours::ImageContours(Params params)
 }
 
 void ImageContours::run(Run& run) {
-    const Images& images = run.in<Images>("images");
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(params_.target, ignored)) run.used_file(params_.target);
-    ImageBoards found;
-    for (const CameraImage& image : images.cameras) {
-        run.check_cancelled();
-        found.cameras.push_back({image.label, image.camera});
+    write_image_boards(run, params_.target, [&](const CameraImage& image, ImageBoards& found) {
         detect(run, image, found);
-    }
-    if (images.cameras.empty())
-        run.note({"boards in images", "the scene has no image", "",
-                  "check which cameras the source reads"});
-    run.write("boards", std::move(found));
+    });
 }
 
 void ImageContours::detect(Run& run, const CameraImage& image, ImageBoards& found) const {

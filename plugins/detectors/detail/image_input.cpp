@@ -3,7 +3,10 @@
 
 #include "detectors/detail/image_input.hpp"
 
+#include <filesystem>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "petal/error.hpp"
 
@@ -42,6 +45,23 @@ CameraModel model_of(const CameraImage& camera) {
     } catch (const Error& error) {
         throw Error("camera '" + camera.label + "': " + error.what());
     }
+}
+
+void write_image_boards(Run& run, const std::string& target,
+                        const std::function<void(const CameraImage&, ImageBoards&)>& detect) {
+    const Images& images = run.in<Images>("images");
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(target, ignored)) run.used_file(target);
+    ImageBoards found;
+    for (const CameraImage& image : images.cameras) {
+        run.check_cancelled();
+        found.cameras.push_back({image.label, image.camera});
+        detect(image, found);
+    }
+    if (images.cameras.empty())
+        run.note({"boards in images", "the scene has no image", "",
+                  "check which cameras the source reads"});
+    run.write("boards", std::move(found));
 }
 
 }  // namespace petal

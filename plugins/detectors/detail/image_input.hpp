@@ -3,10 +3,14 @@
 
 #pragma once
 
+#include <functional>
 #include <opencv2/core.hpp>
+#include <string>
 
+#include "petal/calibration/boards.hpp"
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/images.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -17,5 +21,11 @@ cv::Mat pixels_of(const CameraImage& camera);
 
 /// \throws Error naming the camera when its intrinsics are none.
 CameraModel model_of(const CameraImage& camera);
+
+/// What every image_board_detector does: `detect` adds the boards of each image on `images`, and
+/// all are written to `boards`. A target given as a file is told as used; a scene without an image
+/// gets a note.
+void write_image_boards(Run& run, const std::string& target,
+                        const std::function<void(const CameraImage&, ImageBoards&)>& detect);
 
 }  // namespace petal

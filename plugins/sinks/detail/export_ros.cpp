@@ -5,6 +5,7 @@
 #include <set>
 
 #include "petal/error.hpp"
+#include "petal/html/escape.hpp"
 #include "sinks/detail/export_format.hpp"
 
 namespace petal {
@@ -40,23 +41,6 @@ std::vector<StaticTransform> transforms_of(const ExportInput& input) {
     return list;
 }
 
-std::string xml_text(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&')
-            escaped += "&amp;";
-        else if (c == '<')
-            escaped += "&lt;";
-        else if (c == '>')
-            escaped += "&gt;";
-        else if (c == '"')
-            escaped += "&quot;";
-        else
-            escaped += c;
-    }
-    return escaped;
-}
-
 /// A comment of XML may not hold two hyphens.
 std::string xml_comment(const std::vector<std::string>& lines) {
     std::string text = comment(lines, "  ");
@@ -72,7 +56,7 @@ std::string frame_id(const std::string& name) {
         throw Error("'" + name +
                     "' is no name of a ROS frame; set camera_frame and lidar_frame to names "
                     "without blanks and quotes");
-    return xml_text(name);
+    return html::escape(name);
 }
 
 /// A node's name has letters, digits and underscores alone.
