@@ -74,7 +74,7 @@ double TemplateShape::roundness() const {
 TemplateShape shape_of(const std::vector<Eigen::Vector2d>& polygon) {
     TemplateShape shape;
     shape.spread.setZero();
-    const Eigen::Vector2d origin = polygon.front();
+    const Eigen::Vector2d& origin = polygon.front();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Eigen::Vector2d a = polygon[i] - origin;
         const Eigen::Vector2d b = polygon[(i + 1) % polygon.size()] - origin;

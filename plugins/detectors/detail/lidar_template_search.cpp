@@ -156,7 +156,8 @@ void PlateSearch::measure(PlateCandidate& plate) const {
         const int column = static_cast<int>(std::floor(q.x() / cell_size_ + 0.5)) + half;
         const int row = static_cast<int>(std::floor(q.y() / cell_size_ + 0.5)) + half;
         if (column < 0 || row < 0 || column >= size || row >= size) continue;
-        char& one = taken[static_cast<std::size_t>(row * size + column)];
+        char& one = taken[static_cast<std::size_t>(row) * static_cast<std::size_t>(size) +
+                          static_cast<std::size_t>(column)];
         if (one != 0) continue;
         one = 1;
         const double radius = q.head<2>().norm();

@@ -204,8 +204,7 @@ PlateShape::Edge PlateShape::edge(const Eigen::Vector2d& p) const {
     const Eigen::Vector2d at = (p - grid_min_) / cell_;
     if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < columns_ && at.y() < rows_))
         return edge_of(p, everything_.data(), everything_.data() + everything_.size());
-    const std::size_t cell =
-        static_cast<std::size_t>(static_cast<int>(at.y()) * columns_ + static_cast<int>(at.x()));
+    const std::size_t cell = cell_of(at);
     return edge_of(p, nearest_.data() + begins_[cell], nearest_.data() + begins_[cell + 1]);
 }
 

@@ -101,6 +101,11 @@ class PlateShape {
     void close_loop(std::size_t first, bool outline);
     void add_polygon(const std::vector<Eigen::Vector2d>& polygon, bool outline);
     void add_circle(const Target::RoundHole& hole);
+    /// The index of the cell of a place that lies in the grid, in cells.
+    std::size_t cell_of(const Eigen::Vector2d& at) const {
+        return static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(at.x());
+    }
     Edge edge_of(const Eigen::Vector2d& p, const std::uint16_t* first,
                  const std::uint16_t* last) const;
     void build_grid();
@@ -138,8 +143,7 @@ PlateShape::Edge PlateShape::edge_by(const Eigen::Vector2d& p, const Metric& met
     const std::uint16_t* last = first + every_loop_.size();
     const Eigen::Vector2d at = (p - grid_min_) / cell_;
     if (at.x() >= 0.0 && at.y() >= 0.0 && at.x() < columns_ && at.y() < rows_) {
-        const std::size_t cell = static_cast<std::size_t>(static_cast<int>(at.y()) * columns_ +
-                                                          static_cast<int>(at.x()));
+        const std::size_t cell = cell_of(at);
         first = nearest_loops_.data() + loop_begins_[cell];
         last = nearest_loops_.data() + loop_begins_[cell + 1];
     }

@@ -61,7 +61,8 @@ std::vector<ReportPicture> report_pictures(
     const ScenePlaces& places, const std::map<std::uint64_t, std::shared_ptr<const Cloud>>& edges,
     const PictureSettings& settings) {
     std::vector<ReportPicture> pictures;
-    for (const auto& [number, scene] : scenes) {
+    for (const auto& [number, seen] : scenes) {
+        const SceneView& scene = seen;  // a lambda may not capture what a binding names
         if (!scene.images) continue;
         const auto edge_cloud = edges.find(number);
         const Cloud* const cloud =
