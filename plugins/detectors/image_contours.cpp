@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "detectors/detail/image_input.hpp"
-#include "petal/calibration/file_name.hpp"
 #include "petal/error.hpp"
 #include "petal/printed.hpp"
 
@@ -74,8 +72,7 @@ void ImageContours::detect(Run& run, const CameraImage& image, ImageBoards& foun
     const CameraModel camera = model_of(image);
     ImageSearchPicture picture;
     picture.image = pixels_of(image);
-    cv::Mat grey = picture.image;
-    if (grey.channels() == 3) cv::cvtColor(picture.image, grey, cv::COLOR_BGR2GRAY);
+    const cv::Mat grey = grey_of(picture.image);
 
     const SquareSearch search = find_squares(grey, params_, [&run] { run.check_cancelled(); });
     const Grouping grouping = group_squares(search.squares, layout_, camera, params_.min_holes);
@@ -170,14 +167,7 @@ void ImageContours::tell(Run& run, const std::string& camera, const ImageSearchP
                                     "': " + std::to_string(picture.boards.size()) +
                                     " boards from " + squares);
     }
-    if (!picture.boards.empty() && !run.debug()) return;
-    run.save("squares_" + file_name(camera) + ".png",
-             [&picture](const std::filesystem::path& file) { write_overlay(picture, file); });
-    for (std::size_t i = 0; i < picture.boards.size(); ++i)
-        run.save("board_" + file_name(camera) + "_" + std::to_string(i) + ".png",
-                 [&picture, i](const std::filesystem::path& file) {
-                     write_board_crop(picture, i, file);
-                 });
+    save_pictures(run, "squares", camera, picture);
 }
 
 }  // namespace petal

@@ -4,13 +4,11 @@
 #include "detectors/image_template.hpp"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "detectors/detail/image_board_overlay.hpp"
 #include "detectors/detail/image_input.hpp"
 #include "detectors/detail/image_template_search.hpp"
-#include "petal/calibration/file_name.hpp"
 #include "petal/error.hpp"
 #include "petal/printed.hpp"
 
@@ -78,8 +76,7 @@ void ImageTemplate::detect(Run& run, const CameraImage& image, ImageBoards& foun
     const CameraModel camera = model_of(image);
     ImageSearchPicture picture;
     picture.image = pixels_of(image);
-    cv::Mat grey = picture.image;
-    if (grey.channels() == 3) cv::cvtColor(picture.image, grey, cv::COLOR_BGR2GRAY);
+    const cv::Mat grey = grey_of(picture.image);
     TemplateSearch search =
         search_boards(grey, model_, camera, params_, [&run] { run.check_cancelled(); });
     picture.squares = search.regions;
@@ -95,16 +92,7 @@ void ImageTemplate::detect(Run& run, const CameraImage& image, ImageBoards& foun
         run.log(LogLevel::info, "camera '" + image.label +
                                     "': " + std::to_string(picture.boards.size()) + " boards, " +
                                     std::to_string(search.guesses) + " places");
-    if (picture.boards.empty() || run.debug()) {
-        const std::string label = file_name(image.label);
-        run.save("boards_" + label + ".png",
-                 [&picture](const std::filesystem::path& file) { write_overlay(picture, file); });
-        for (std::size_t i = 0; i < picture.boards.size(); ++i)
-            run.save("board_" + label + "_" + std::to_string(i) + ".png",
-                     [&picture, i](const std::filesystem::path& file) {
-                         write_board_crop(picture, i, file);
-                     });
-    }
+    save_pictures(run, "boards", image.label, picture);
     for (ImageBoard& board : picture.boards) found.boards.push_back(std::move(board));
 }
 

@@ -11,6 +11,7 @@ namespace petal::testing {
 namespace {
 
 using nlohmann::json;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 /// A rig calibrated from simulated placements, without files between.
@@ -71,7 +72,9 @@ TEST_F(Calibrate, OneFlatBoardIsNoCalibration) {
     const json result = calibrated("set_one_flat", 5.0, 4);
     EXPECT_NE(result["verdict"], "usable");
     EXPECT_EQ(result["orientation"]["decided_by"], "prior");
-    EXPECT_THAT(result["reasons"].dump(), HasSubstr("weakest: "));
+    // Of a flat board x and y are equally weak: which comes first is noise's doing.
+    EXPECT_THAT(result["reasons"].dump(),
+                ContainsRegex("weakest: (tilting|turning) about the camera's (x|y|x and y) ax"));
     EXPECT_THAT(result["reasons"].dump(), HasSubstr("one board looks the same"));
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "petal/calibration/file_name.hpp"
 #include "petal/calibration/picture_file.hpp"
 
 namespace petal {
@@ -125,6 +126,19 @@ void write_board_crop(const ImageSearchPicture& picture, std::size_t board,
     Canvas canvas(picture.image, part, scale);
     draw_corners(canvas, picture, board, 5.0 / scale, 0.4, true);
     canvas.write(file);
+}
+
+void save_pictures(Run& run, const std::string& name, const std::string& camera,
+                   const ImageSearchPicture& picture) {
+    if (!picture.boards.empty() && !run.debug()) return;
+    const std::string label = file_name(camera);
+    run.save(name + "_" + label + ".png",
+             [&picture](const std::filesystem::path& file) { write_overlay(picture, file); });
+    for (std::size_t i = 0; i < picture.boards.size(); ++i)
+        run.save("board_" + label + "_" + std::to_string(i) + ".png",
+                 [&picture, i](const std::filesystem::path& file) {
+                     write_board_crop(picture, i, file);
+                 });
 }
 
 }  // namespace petal

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "petal/calibration/boards.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -38,5 +39,10 @@ void write_overlay(const ImageSearchPicture& picture, const std::filesystem::pat
 /// One board cut out and enlarged, with corners, indices and 3-sigma ellipses.
 void write_board_crop(const ImageSearchPicture& picture, std::size_t board,
                       const std::filesystem::path& file);
+
+/// Where nothing was found, or the run asks for it: saves the photo as `<name>_<camera>.png` and
+/// each board as `board_<camera>_<number>.png`.
+void save_pictures(Run& run, const std::string& name, const std::string& camera,
+                   const ImageSearchPicture& picture);
 
 }  // namespace petal

@@ -58,8 +58,9 @@ RefinedBoard BoardRefiner::refine(const Homography& rough) const {
         {{0.35, 2.5, 12.0}, {0.2, 2.0, 6.0}, {0.12, 1.5, 3.0}, {0.12, 1.5, 3.0}}};
     std::vector<SidePoint> points;
     const HoleWalls walls(layout_, camera_.camera());
-    std::array<double, 2> share{0.0, 0.0};
+    std::array<HoleWalls::Share, 2> share;
     board.wall.assign(layout_.sides().size(), 0.0);
+    board.wall_sigma = board.wall;
     for (const auto& [in_sides, least, most] : ranges) {
         points = measure(h, in_sides, least, most);
         board.side_measured.assign(layout_.sides().size(), true);
@@ -72,9 +73,12 @@ RefinedBoard BoardRefiner::refine(const Homography& rough) const {
             if (limits_.model_walls) {
                 const std::vector<double> shown = walls.shown(h);
                 share = walls.share(shown, share, side_insets(h, points, board.wall),
-                                    board.side_measured);
-                for (std::size_t s = 0; s < shown.size(); ++s)
-                    board.wall[s] = share[static_cast<std::size_t>(walls.axis(s))] * shown[s];
+                                    board.side_measured, {board.contrast, scale_of(h)});
+                for (std::size_t s = 0; s < shown.size(); ++s) {
+                    const auto& of_axis = share[static_cast<std::size_t>(walls.axis(s))];
+                    board.wall[s] = of_axis.mean * shown[s];
+                    board.wall_sigma[s] = of_axis.sigma * shown[s];
+                }
                 if (!fit_board(h, points, board.side_measured, board.wall)) {
                     board.rejected = "the hole sides' edge points fit no homography";
                     return board;
@@ -101,6 +105,12 @@ RefinedBoard BoardRefiner::refine(const Homography& rough) const {
     if (!corners.fit(points, board))
         board.rejected = "hole sides do not meet in corners that the camera can see";
     return board;
+}
+
+double BoardRefiner::scale_of(const Homography& h) const {
+    double sum = 0.0;
+    for (const SideFrame& frame : side_frames(layout_, h)) sum += frame.px_per_m;
+    return sum / static_cast<double>(layout_.sides().size());
 }
 
 bool BoardRefiner::judge_plate(RefinedBoard& board) const {

@@ -36,8 +36,9 @@ struct RefinedBoard {
     /// m: how much further into the hole each side's edge is seen than the front edge lies, since
     /// the wall of the hole shows. HoleLayout::sides() order.
     std::vector<double> wall;
-    double line_rms_px = 0.0;   ///< edge points about the lines of their sides
-    double board_rms_px = 0.0;  ///< measured sides about the board's geometry
+    std::vector<double> wall_sigma;  ///< m, 1 sigma of it; of all sides of an axis together
+    double line_rms_px = 0.0;        ///< edge points about the lines of their sides
+    double board_rms_px = 0.0;       ///< measured sides about the board's geometry
     double contrast = 0.0;
     double plate_fraction = 0.0;
     std::string rejected;  ///< empty: a board; else why not, with figure and threshold
@@ -62,6 +63,7 @@ class BoardRefiner {
 
    private:
     bool judge_plate(RefinedBoard& board) const;
+    double scale_of(const Homography& h) const;  ///< px a m across the holes' sides, their mean
     std::vector<SidePoint> measure(const Homography& h, double reach_in_sides, double least_px,
                                    double most_px) const;
     bool fit_board(Homography& h, const std::vector<SidePoint>& points,

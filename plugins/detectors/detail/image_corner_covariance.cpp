@@ -11,9 +11,8 @@
 namespace petal {
 namespace {
 
-constexpr double kFitted = 9.0;     ///< eight of the homography and the inset
-constexpr double kWallDoubt = 0.1;  ///< of a wall's shift, 1 sigma
-constexpr double kLeast = 0.005;    ///< px: each coordinate's own; keeps the matrix regular
+constexpr double kFitted = 9.0;   ///< eight of the homography and the inset
+constexpr double kLeast = 0.005;  ///< px: each coordinate's own; keeps the matrix regular
 
 using SideJacobian = Eigen::Matrix<double, 2, 8>;
 
@@ -80,7 +79,7 @@ SideMisfit side_misfit(const HoleLayout& layout, const std::vector<SideFrame>& f
 Eigen::MatrixXd corner_covariance(const HoleLayout& layout, const Homography& h,
                                   const std::vector<MeasuredSide>& sides,
                                   const std::vector<CornerCrossing>& corners, double scatter,
-                                  double inset, const std::vector<double>& wall) {
+                                  double inset, const std::vector<double>& wall_sigma) {
     const auto lines = static_cast<Eigen::Index>(sides.size());
     const std::vector<SideJacobian> jacobians = side_jacobians(layout, h);
     const std::vector<SideFrame> frame = side_frames(layout, h);
@@ -134,7 +133,7 @@ Eigen::MatrixXd corner_covariance(const HoleLayout& layout, const Homography& h,
         for (Eigen::Index a = 0; a < lines; ++a) {
             const auto s = static_cast<std::size_t>(a);
             if (axis_of(layout.sides()[s]) == axis)
-                walls(2 * a) = kWallDoubt * wall[s] * frame[s].px_per_m;
+                walls(2 * a) = wall_sigma[s] * frame[s].px_per_m;
         }
         of_lines += smaller * smaller.transpose() + shifted * shifted.transpose() +
                     walls * walls.transpose();

@@ -42,14 +42,14 @@ struct CornerCrossing {
 /// taken below `scatter`^2, the variance of the points about their own lines. A side without
 /// points is as far off the geometry as the others.
 ///
-/// Holes that look smaller than the target's, beyond what `wall` (m, HoleWalls) took out, may still
+/// Holes that look smaller than the target's, beyond what HoleWalls took out, may still
 /// do so because the plate's thickness shows. That makes the hole smaller and shifts it as much. So
 /// the insets that are left, fitted for both axes, are in doubt as a common inset and as a common
-/// shift; and so is a part of the walls, whose brightness the image blurs with the edge. `inset`
-/// (m) is what the sides' `measured` were taken from.
+/// shift; and so are the walls, by `wall_sigma` (m). `inset` (m) is what the sides' `measured` were
+/// taken from.
 Eigen::MatrixXd corner_covariance(const HoleLayout& layout, const Homography& h,
                                   const std::vector<MeasuredSide>& sides,
                                   const std::vector<CornerCrossing>& corners, double scatter,
-                                  double inset, const std::vector<double>& wall);
+                                  double inset, const std::vector<double>& wall_sigma);
 
 }  // namespace petal

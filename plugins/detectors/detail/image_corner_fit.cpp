@@ -142,8 +142,8 @@ bool CornerFit::intersect(const std::vector<SideLine>& lines, const std::vector<
     std::vector<MeasuredSide> measured;
     measured.reserve(lines.size());
     for (const SideLine& line : lines) measured.push_back(line.own);
-    board.joint_covariance =
-        corner_covariance(layout_, h, measured, crossings, scatter, board.hole_inset, board.wall);
+    board.joint_covariance = corner_covariance(layout_, h, measured, crossings, scatter,
+                                               board.hole_inset, board.wall_sigma);
     return board.joint_covariance.allFinite();
 }
 

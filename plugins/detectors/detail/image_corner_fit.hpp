@@ -30,9 +30,9 @@ class CornerFit {
           tolerance_(tolerance),
           sigma_floor_px_(sigma_floor_px) {}
 
-    /// Reads board_to_image, side_measured, hole_inset and wall of `board`; fills corners, their
-    /// covariances (single and joint) and the two RMS. False where sides do not meet, or a corner
-    /// is not in the camera's view.
+    /// Reads board_to_image, side_measured, hole_inset, wall and wall_sigma of `board`; fills
+    /// corners, their covariances (single and joint) and the two RMS. False where sides do not
+    /// meet, or a corner is not in the camera's view.
     bool fit(const std::vector<SidePoint>& points, RefinedBoard& board) const;
 
    private:

@@ -12,10 +12,13 @@
 namespace petal {
 namespace {
 
-constexpr double kLeastWall = 2e-4;  ///< m: less shifts no edge that one could measure
-/// A wall that is lit better than the front moves the edge by more than it shows: narrower than the
-/// blur, by (wall - hole) / (front - hole) of it.
-constexpr double kMostShare = 3.0;
+/// A wall is as bright as the front times this, 1 sigma: it has the same colour, but the light
+/// falls on it from elsewhere.
+constexpr double kWallBrightness = 0.9;
+constexpr double kWallBrightnessSigma = 0.5;
+/// px: holes look smaller or larger by this, 1 sigma, walls or not, as tone curve and blur have it.
+constexpr double kInsetSigmaPx = 0.15;
+constexpr double kLeastContrast = 0.05;
 
 /// The camera's centre in the board frame: z < 0. None for a homography that no pose has.
 std::optional<Eigen::Vector3d> camera_centre(const Homography& board_to_ideal,
@@ -67,26 +70,33 @@ std::vector<double> HoleWalls::shown(const Homography& board_to_ideal) const {
     return walls;
 }
 
-std::array<double, 2> HoleWalls::share(const std::vector<double>& shown,
-                                       const std::array<double, 2>& explained,
-                                       const std::vector<double>& insets,
-                                       const std::vector<bool>& measured) const {
-    std::array<double, 2> shares = explained;
+std::array<HoleWalls::Share, 2> HoleWalls::share(const std::vector<double>& shown,
+                                                 const std::array<Share, 2>& explained,
+                                                 const std::vector<double>& insets,
+                                                 const std::vector<bool>& measured,
+                                                 const Sight& sight) const {
+    const double contrast = std::max(sight.contrast, kLeastContrast);
+    const Share expected{1.0 - (1.0 - kWallBrightness) / contrast, kWallBrightnessSigma / contrast};
+    std::array<Share, 2> shares{expected, expected};
     for (int axis_index = 0; axis_index < 2; ++axis_index) {
-        std::vector<double> inset, wall;
+        std::vector<double> inset;
+        double wall = 0.0;
         for (std::size_t s = 0; s < shown.size(); ++s) {
             if (!measured[s] || axis(s) != axis_index) continue;
             inset.push_back(insets[s]);
-            wall.push_back(shown[s]);
+            wall += shown[s];
         }
-        double mean = 0.0;
-        for (const double w : wall) mean += w / static_cast<double>(wall.size());
-        auto& share = shares[static_cast<std::size_t>(axis_index)];
+        if (!(wall > 0.0)) continue;
         // Half of the sides show no wall, but the fit of the whole board gives them half of it.
-        if (2.0 * mean < kLeastWall)
-            share = 0.0;
-        else
-            share = std::clamp(share + median_of(inset) / mean, 0.0, kMostShare);
+        wall /= static_cast<double>(inset.size());
+        auto& share = shares[static_cast<std::size_t>(axis_index)];
+        const double seen =
+            explained[static_cast<std::size_t>(axis_index)].mean + median_of(inset) / wall;
+        const double sigma = kInsetSigmaPx / sight.px_per_m / wall;
+        const double weight =
+            share.sigma * share.sigma / (share.sigma * share.sigma + sigma * sigma);
+        share.mean = std::max(0.0, share.mean + weight * (seen - share.mean));
+        share.sigma *= std::sqrt(1.0 - weight);
     }
     return shares;
 }

@@ -29,14 +29,25 @@ class HoleWalls {
     /// 0 for sides that stand left and right of a hole, 1 for those above and below.
     int axis(std::size_t side) const;
 
-    /// How much of `shown` an edge in the image moves, 0 (a wall as dark as the hole), 1 (as bright
-    /// as the front) or more, for both axes: what makes the holes as wide as the target says.
-    /// `insets` (m) is how much smaller the holes look at each side than explained so far; sides
-    /// that were not measured are not used.
-    std::array<double, 2> share(const std::vector<double>& shown,
-                                const std::array<double, 2>& explained,
-                                const std::vector<double>& insets,
-                                const std::vector<bool>& measured) const;
+    /// How much of `shown` an edge in the image moves: (wall - hole) / (front - hole) in
+    /// brightness, 1 for a wall as bright as the front.
+    struct Share {
+        double mean = 0.0, sigma = 0.0;
+    };
+    /// How the board looks: (front - hole) / front in grey values, and its scale.
+    struct Sight {
+        double contrast = 1.0, px_per_m = 1.0;
+    };
+
+    /// The share of both axes: what one expects of a wall of the front's colour under another
+    /// light, and what makes the holes as wide as the target says, each with its weight. Where
+    /// walls show little, holes that look small say little of them. `insets` (m) is how much
+    /// smaller the holes look at each side than `explained`; sides that were not measured are not
+    /// used.
+    std::array<Share, 2> share(const std::vector<double>& shown,
+                               const std::array<Share, 2>& explained,
+                               const std::vector<double>& insets, const std::vector<bool>& measured,
+                               const Sight& sight) const;
 
    private:
     const HoleLayout& layout_;

@@ -4,6 +4,7 @@
 #include "detectors/detail/image_input.hpp"
 
 #include <filesystem>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -37,6 +38,13 @@ cv::Mat pixels_of(const CameraImage& camera) {
                     pixels_by(width, height) +
                     ": give the intrinsics of this resolution, or the photo in its original size");
     return pixels;
+}
+
+cv::Mat grey_of(const cv::Mat& pixels) {
+    if (pixels.channels() == 1) return pixels;
+    cv::Mat grey;
+    cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);
+    return grey;
 }
 
 CameraModel model_of(const CameraImage& camera) {

@@ -19,6 +19,9 @@ namespace petal {
 /// for.
 cv::Mat pixels_of(const CameraImage& camera);
 
+/// The same in one channel; shared where it has no more.
+cv::Mat grey_of(const cv::Mat& pixels);
+
 /// \throws Error naming the camera when its intrinsics are none.
 CameraModel model_of(const CameraImage& camera);
 

@@ -32,16 +32,7 @@ StageHarness detector() {
 }
 
 ImageBoards detect(const CameraImage& image) {
-    StageHarness stage = detector();
-    stage.give<Images>("images", Images{{image}});
-    stage.fire();
-    return stage.out<ImageBoards>("boards");
-}
-
-double rms(const std::vector<Eigen::Vector2d>& found, const std::vector<Eigen::Vector2d>& truth) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) sum += (found[i] - truth[i]).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(truth.size()));
+    return testing::boards_in(detector(), image);
 }
 
 std::size_t files_with(const std::filesystem::path& folder, const std::string& part) {
@@ -68,8 +59,8 @@ TEST_P(ImageContoursView, FindsCornersOfARenderedBoard) {
     const ImageBoards found = detect(Photo(camera).add(target, pose).take(0.8, 3.0));
     ASSERT_EQ(found.boards.size(), 1u);
     const auto truth = true_corners(target, CameraModel(camera), pose);
-    EXPECT_LT(rms(found.boards[0].corners, truth), 0.15);
-    RecordProperty("rms_px", std::to_string(rms(found.boards[0].corners, truth)));
+    EXPECT_LT(testing::rms_distance(found.boards[0].corners, truth), 0.15);
+    RecordProperty("rms_px", std::to_string(testing::rms_distance(found.boards[0].corners, truth)));
     EXPECT_EQ(found.boards[0].target, target.name);
     EXPECT_EQ(found.boards[0].camera, "CAMERA");
 }
@@ -117,7 +108,9 @@ TEST(ImageContours, KeepsToRawPixelsUnderDistortion) {
     const auto pose = board_pose(target, {0.8, 0.5, 1.6}, 20.0, 10.0);
     const ImageBoards found = detect(Photo(camera).add(target, pose).take(0.8, 2.0));
     ASSERT_EQ(found.boards.size(), 1u);
-    EXPECT_LT(rms(found.boards[0].corners, true_corners(target, CameraModel(camera), pose)), 0.15);
+    EXPECT_LT(testing::rms_distance(found.boards[0].corners,
+                                    true_corners(target, CameraModel(camera), pose)),
+              0.15);
 }
 
 TEST(ImageContours, ABrightThingBehindAHoleDoesNotBendItsCorners) {
@@ -130,7 +123,7 @@ TEST(ImageContours, ABrightThingBehindAHoleDoesNotBendItsCorners) {
     const ImageBoard& board = found.boards[0];
     EXPECT_EQ(board.quality.at("sides_from_geometry"), 1.0);
     const auto truth = true_corners(target, CameraModel(camera), pose);
-    EXPECT_LT(rms(board.corners, truth), 0.15);
+    EXPECT_LT(testing::rms_distance(board.corners, truth), 0.15);
     // Corners 12 and 13 end the hidden side: they must not claim to be as good as the others.
     EXPECT_GT(board.covariance[12](1, 1), 2.0 * board.covariance[15](1, 1));
     EXPECT_GT(board.covariance[13](1, 1), 2.0 * board.covariance[14](1, 1));
@@ -149,7 +142,8 @@ TEST(ImageContours, FindsTheFrontEdgesWhereWallsShowInTheHoles) {
             "images", Images{{Photo(camera).add(target, pose, 180.0, 1e9, wall).take(0.8, 2.0)}});
         stage.fire();
         const auto& found = stage.out<ImageBoards>("boards");
-        return found.boards.size() == 1 ? rms(found.boards[0].corners, truth) : 1e9;
+        return found.boards.size() == 1 ? testing::rms_distance(found.boards[0].corners, truth)
+                                        : 1e9;
     };
     EXPECT_LT(off(0.9, true), 0.15);
     EXPECT_GT(off(0.9, false), 0.3) << "the bias that the model is there for";
@@ -182,7 +176,7 @@ TEST(ImageContours, ColourAndGreyGiveTheSameCorners) {
     const ImageBoards a = detect(grey), b = detect(Photo::wrap(bgr, camera));
     ASSERT_EQ(a.boards.size(), 1u);
     ASSERT_EQ(b.boards.size(), 1u);
-    EXPECT_EQ(rms(a.boards[0].corners, b.boards[0].corners), 0.0);
+    EXPECT_EQ(testing::rms_distance(a.boards[0].corners, b.boards[0].corners), 0.0);
 }
 
 TEST(ImageContours, AllCamerasAreListedAlsoThoseThatFoundNothing) {

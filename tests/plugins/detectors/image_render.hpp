@@ -16,9 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "petal/calibration/boards.hpp"
 #include "petal/calibration/camera_model.hpp"
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/target.hpp"
+#include "petal/testing/stage_harness.hpp"
 
 namespace petal::testing {
 
@@ -62,6 +64,21 @@ inline bool in_polygon(const std::vector<Eigen::Vector2d>& polygon, double x, do
             in = !in;
     }
     return in;
+}
+
+/// Root of the mean square of the distances, px.
+inline double rms_distance(const std::vector<Eigen::Vector2d>& found,
+                           const std::vector<Eigen::Vector2d>& truth) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) sum += (found[i] - truth[i]).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+/// What an image detector finds in one photo.
+inline ImageBoards boards_in(StageHarness stage, const CameraImage& image) {
+    stage.give<Images>("images", Images{{image}});
+    stage.fire();
+    return stage.out<ImageBoards>("boards");
 }
 
 /// A synthetic photo: background, then boards ray by ray (8 x 8 rays a pixel), blur, noise.

@@ -35,17 +35,7 @@ StageHarness template_detector(const std::string& target = kTemplateTarget) {
 }
 
 ImageBoards find_templates(const CameraImage& image, const std::string& target = kTemplateTarget) {
-    StageHarness stage = template_detector(target);
-    stage.give<Images>("images", Images{{image}});
-    stage.fire();
-    return stage.out<ImageBoards>("boards");
-}
-
-double rms_off(const std::vector<Eigen::Vector2d>& found,
-               const std::vector<Eigen::Vector2d>& truth) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) sum += (found[i] - truth[i]).squaredNorm();
-    return std::sqrt(sum / static_cast<double>(truth.size()));
+    return testing::boards_in(template_detector(target), image);
 }
 
 /// A target file of the test's own, below `folder`.
@@ -74,8 +64,8 @@ TEST_P(ImageTemplateView, FindsCornersOfARenderedBoard) {
     const ImageBoards found = find_templates(Photo(camera).add(target, pose).take(0.8, 3.0));
     ASSERT_EQ(found.boards.size(), 1u);
     const auto truth = true_corners(target, CameraModel(camera), pose);
-    EXPECT_LT(rms_off(found.boards[0].corners, truth), 0.1);
-    RecordProperty("rms_px", std::to_string(rms_off(found.boards[0].corners, truth)));
+    EXPECT_LT(testing::rms_distance(found.boards[0].corners, truth), 0.1);
+    RecordProperty("rms_px", std::to_string(testing::rms_distance(found.boards[0].corners, truth)));
     EXPECT_EQ(found.boards[0].target, target.name);
     EXPECT_EQ(found.boards[0].camera, "CAMERA");
 }
@@ -134,7 +124,8 @@ TEST(ImageTemplate, DistortionIsTakenIntoAccount) {
         const auto pose = board_pose(target, {aside, 0.3, 1.5}, -20.0, 10.0, 5.0);
         const ImageBoards found = find_templates(Photo(camera).add(target, pose).take(0.8, 2.0));
         ASSERT_EQ(found.boards.size(), 1u);
-        EXPECT_LT(rms_off(found.boards[0].corners, true_corners(target, CameraModel(camera), pose)),
+        EXPECT_LT(testing::rms_distance(found.boards[0].corners,
+                                        true_corners(target, CameraModel(camera), pose)),
                   0.1);
     }
 }
@@ -148,7 +139,8 @@ TEST(ImageTemplate, ABrightThingBehindAHoleIsNotItsEdge) {
         find_templates(Photo(camera).add(target, pose, 180.0, 0.378).take(0.8, 2.0));
     ASSERT_EQ(found.boards.size(), 1u);
     EXPECT_LT(found.boards[0].quality.at("edges_in_place"), 0.97);
-    EXPECT_LT(rms_off(found.boards[0].corners, true_corners(target, CameraModel(camera), pose)),
+    EXPECT_LT(testing::rms_distance(found.boards[0].corners,
+                                    true_corners(target, CameraModel(camera), pose)),
               0.1);
 }
 
@@ -165,7 +157,8 @@ TEST(ImageTemplate, FindsTheFrontEdgesWhereWallsShow) {
             "images", Images{{Photo(camera).add(target, pose, 180.0, 1e9, wall).take(0.8, 2.0)}});
         stage.fire();
         const auto& found = stage.out<ImageBoards>("boards");
-        return found.boards.size() == 1 ? rms_off(found.boards[0].corners, truth) : 1e9;
+        return found.boards.size() == 1 ? testing::rms_distance(found.boards[0].corners, truth)
+                                        : 1e9;
     };
     EXPECT_LT(off(0.9, true), 0.12);
     EXPECT_GT(off(0.9, false), 2.0 * off(0.9, true)) << "the bias that the model is there for";
@@ -191,7 +184,8 @@ TEST(ImageTemplate, TargetsOfOtherShapes) {
         const ImageBoards found =
             find_templates(Photo(camera).add(target, pose).take(0.8, 2.0), file);
         ASSERT_EQ(found.boards.size(), 1u) << name;
-        EXPECT_LT(rms_off(found.boards[0].corners, true_corners(target, CameraModel(camera), pose)),
+        EXPECT_LT(testing::rms_distance(found.boards[0].corners,
+                                        true_corners(target, CameraModel(camera), pose)),
                   0.12)
             << name;
     }
@@ -221,7 +215,8 @@ TEST(ImageTemplate, FaintHoles) {
         find_templates(Photo(camera, 171.0).add(target, pose, 178.0).take(0.8, 1.0));
     ASSERT_EQ(found.boards.size(), 1u);
     // Edges of 7 grey levels place a point to 0.2 px, and some 200 of them a board to 0.05.
-    EXPECT_LT(rms_off(found.boards[0].corners, true_corners(target, CameraModel(camera), pose)),
+    EXPECT_LT(testing::rms_distance(found.boards[0].corners,
+                                    true_corners(target, CameraModel(camera), pose)),
               0.3);
 }
 
@@ -247,7 +242,7 @@ TEST(ImageTemplate, ColourAndGreyGiveTheSameCorners) {
     const ImageBoards a = find_templates(grey), b = find_templates(Photo::wrap(bgr, camera));
     ASSERT_EQ(a.boards.size(), 1u);
     ASSERT_EQ(b.boards.size(), 1u);
-    EXPECT_EQ(rms_off(a.boards[0].corners, b.boards[0].corners), 0.0);
+    EXPECT_EQ(testing::rms_distance(a.boards[0].corners, b.boards[0].corners), 0.0);
 }
 
 TEST(ImageTemplate, APhotoWithoutABoardGivesANoteAndAPicture) {

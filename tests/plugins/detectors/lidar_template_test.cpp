@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "noise.hpp"
@@ -89,6 +90,15 @@ StageHarness found_in(const Cloud& cloud, const std::string& target = "four_squa
     return stage;
 }
 
+/// The board that is found; none, which fails the test too, where there is not exactly one.
+std::optional<LidarBoard> only_board(const RayWorld& world, Rng& rng) {
+    auto stage = found_in(world.cast(rng), world.target);
+    const auto& boards = stage.out<LidarBoards>("boards").boards;
+    EXPECT_THAT(boards, SizeIs(1));
+    if (boards.size() != 1) return std::nullopt;
+    return boards[0];
+}
+
 /// Of the board's middle, and of its turn about its own axes; the nearest of `turns` like orders.
 void expect_at(const LidarBoard& board, const Eigen::Isometry3d& truth, double metres,
                double degrees, int turns, const std::string& what) {
@@ -117,20 +127,19 @@ TEST(LidarTemplate, FindsABoardAtAnyDistanceAndAngle) {
         Rng rng(1);
         RayWorld world;
         world.T_lidar_board = facing_pose(c.distance, c.yaw, c.pitch, c.roll);
-        auto stage = found_in(world.cast(rng));
-        const auto& boards = stage.out<LidarBoards>("boards").boards;
+        const auto board = only_board(world, rng);
         const std::string what = "at " + std::to_string(c.distance) + " m, yaw " +
                                  std::to_string(c.yaw) + ", roll " + std::to_string(c.roll);
-        ASSERT_THAT(boards, SizeIs(1)) << what;
+        ASSERT_TRUE(board) << what;
         // A thin plate is no wall: obliquely the fit expects one of 4 mm that these rays lack.
         const double wall = 0.5 * 0.00425 * std::tan(std::abs(c.yaw));
-        expect_at(boards[0], world.T_lidar_board, 0.001 + wall, 0.3, 4, what);
-        ASSERT_TRUE(boards[0].covariance);
-        EXPECT_THAT(boards[0].corners, SizeIs(16));
+        expect_at(*board, world.T_lidar_board, 0.001 + wall, 0.3, 4, what);
+        ASSERT_TRUE(board->covariance);
+        EXPECT_THAT(board->corners, SizeIs(16));
         // x to the right of an observer at the sensor: never more than an eighth of a turn off.
-        const Eigen::Isometry3d seen = plane_frame(-boards[0].T_lidar_board.linear().col(2),
-                                                   boards[0].T_lidar_board.translation());
-        EXPECT_GT(seen.linear().col(0).dot(boards[0].T_lidar_board.linear().col(0)), 0.7) << what;
+        const Eigen::Isometry3d seen =
+            plane_frame(-board->T_lidar_board.linear().col(2), board->T_lidar_board.translation());
+        EXPECT_GT(seen.linear().col(0).dot(board->T_lidar_board.linear().col(0)), 0.7) << what;
     }
 }
 
@@ -140,11 +149,10 @@ TEST(LidarTemplate, FindsABoardBeforeTheSky) {
     RayWorld world;
     world.T_lidar_board = facing_pose(4.0, 0.2, 0.1, 0.1);
     world.gap = 0.0;
-    auto stage = found_in(world.cast(rng));
-    const auto& boards = stage.out<LidarBoards>("boards").boards;
-    ASSERT_THAT(boards, SizeIs(1));
-    expect_at(boards[0], world.T_lidar_board, 0.0015, 0.4, 4, "sky");
-    EXPECT_GT(boards[0].quality.at("silent_rays"), 1000.0);
+    const auto board = only_board(world, rng);
+    ASSERT_TRUE(board);
+    expect_at(*board, world.T_lidar_board, 0.0015, 0.4, 4, "sky");
+    EXPECT_GT(board->quality.at("silent_rays"), 1000.0);
 }
 
 // A wall 7 cm behind: 7 sigma of range.
@@ -153,10 +161,9 @@ TEST(LidarTemplate, FindsABoardCloseBeforeAWall) {
     RayWorld world;
     world.T_lidar_board = facing_pose(3.0, 0.02, 0.02, 0.0);
     world.gap = 0.07;
-    auto stage = found_in(world.cast(rng));
-    const auto& boards = stage.out<LidarBoards>("boards").boards;
-    ASSERT_THAT(boards, SizeIs(1));
-    expect_at(boards[0], world.T_lidar_board, 0.001, 0.3, 4, "wall");
+    const auto board = only_board(world, rng);
+    ASSERT_TRUE(board);
+    expect_at(*board, world.T_lidar_board, 0.001, 0.3, 4, "wall");
 }
 
 // Either sign, without moving the board. 1 mm: prior and corners of the holes pull a little.
@@ -166,12 +173,11 @@ TEST(LidarTemplate, TellsTheShiftOfTheEdges) {
         RayWorld world;
         world.T_lidar_board = facing_pose(3.0, 0.0, 0.0, 0.0);
         world.shift = shift;
-        auto stage = found_in(world.cast(rng));
-        const auto& boards = stage.out<LidarBoards>("boards").boards;
-        ASSERT_THAT(boards, SizeIs(1)) << shift;
-        expect_at(boards[0], world.T_lidar_board, 0.001, 0.3, 4, "shift");
-        EXPECT_NEAR(boards[0].quality.at("edge_shift_level_mm"), shift * 1e3, 1.0);
-        EXPECT_NEAR(boards[0].quality.at("edge_shift_upright_mm"), shift * 1e3, 1.0);
+        const auto board = only_board(world, rng);
+        ASSERT_TRUE(board) << shift;
+        expect_at(*board, world.T_lidar_board, 0.001, 0.3, 4, "shift");
+        EXPECT_NEAR(board->quality.at("edge_shift_level_mm"), shift * 1e3, 1.0);
+        EXPECT_NEAR(board->quality.at("edge_shift_upright_mm"), shift * 1e3, 1.0);
     }
 }
 
@@ -180,11 +186,10 @@ TEST(LidarTemplate, AnyTargetFileWillDo) {
     RayWorld world;
     world.target = "four_round_holes_aruco";
     world.T_lidar_board = facing_pose(3.0, 0.2, 0.1, 0.05, 1.4, 1.0);
-    auto stage = found_in(world.cast(rng), world.target);
-    const auto& boards = stage.out<LidarBoards>("boards").boards;
-    ASSERT_THAT(boards, SizeIs(1));
-    expect_at(boards[0], world.T_lidar_board, 0.0015, 0.2, 2, "round holes");
-    EXPECT_THAT(boards[0].corners, SizeIs(4)) << "centres of the holes";
+    const auto board = only_board(world, rng);
+    ASSERT_TRUE(board);
+    expect_at(*board, world.T_lidar_board, 0.0015, 0.2, 2, "round holes");
+    EXPECT_THAT(board->corners, SizeIs(4)) << "centres of the holes";
 }
 
 TEST(LidarTemplate, APlateWithoutHolesIsNoBoard) {
