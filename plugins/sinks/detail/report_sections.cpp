@@ -200,9 +200,9 @@ Section pose_section(const Traced& result) {
 
 Section trust_section(const Traced& result) {
     std::string text =
-        "<p class=\"soft\">Noise alone takes intrinsics and ranges as exact. With doubt: the same, "
-        "were focal length, principal point and the LiDAR's range known only as well as the "
-        "solver's parameters say.</p>\n" +
+        "<p class=\"soft\">From the noise and the LiDAR's range offset, intrinsics exact. With "
+        "doubt: the same, were focal length and principal point known only as well as the solver's "
+        "parameters say.</p>\n" +
         for_cameras(result, [](const Traced& from, const std::string& camera) {
             std::string told = "<div class=\"columns\">\n<div>" + sigma_table(from, camera) +
                                "</div>\n<div>" + drift_table(from, camera) + "</div>\n</div>\n";
