@@ -9,15 +9,11 @@
 #include <cmath>
 #include <optional>
 
+#include "detectors/detail/image_wall_prior.hpp"
+
 namespace petal {
 namespace {
 
-/// A wall is as bright as the front times this, 1 sigma: it has the same colour, but the light
-/// falls on it from elsewhere.
-constexpr double kWallBrightness = 0.9;
-constexpr double kWallBrightnessSigma = 0.5;
-/// px: holes look smaller or larger by this, 1 sigma, walls or not, as tone curve and blur have it.
-constexpr double kInsetSigmaPx = 0.15;
 constexpr double kLeastContrast = 0.05;
 
 /// The camera's centre in the board frame: z < 0. None for a homography that no pose has.

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "detectors/detail/image_wall_prior.hpp"
+
 namespace petal {
 
 namespace {
@@ -20,13 +22,8 @@ using Matrix12d = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 /// Neighbouring samples share pixels: they count as half as many independent ones.
 constexpr double kSamplesShare = 2.0;
-constexpr double kTurnPrior = 0.3;      ///< rad, 1 sigma of one step; keeps weak views in reach
-constexpr double kInsetSigma = 5e-4;    ///< m: how holes are cut
-constexpr double kInsetSigmaPx = 0.15;  ///< px: how a camera's tone curve moves edges
-/// A wall is as bright as the front times this, +- this: of the same colour, lit from elsewhere
-/// (1.5 times where the light comes from above and the board is pitched towards it).
-constexpr double kWallBrightness = 0.9;
-constexpr double kWallBrightnessSigma = 0.5;
+constexpr double kTurnPrior = 0.3;    ///< rad, 1 sigma of one step; keeps weak views in reach
+constexpr double kInsetSigma = 5e-4;  ///< m: how holes are cut
 /// Of a hole: sides that scatter more about a first fit are no board's.
 constexpr double kFarOff = 0.12;
 constexpr double kPriorSides = 2.0;  ///< `tolerance` counts as so many sides

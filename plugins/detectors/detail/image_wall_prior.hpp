@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 the petal authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+namespace petal {
+
+/// What is known of a plate's walls before a photo of it is seen. A wall is as bright as the front
+/// times this, 1 sigma: it has the same colour, but the light falls on it from elsewhere (1.5 times
+/// where the light comes from above and the board is pitched towards it).
+constexpr double kWallBrightness = 0.9;
+constexpr double kWallBrightnessSigma = 0.5;
+/// px: holes look smaller or larger by this, 1 sigma, walls or not, as tone curve and blur have it.
+constexpr double kInsetSigmaPx = 0.15;
+
+}  // namespace petal
