@@ -17,7 +17,7 @@ options=(-DCMAKE_BUILD_TYPE=Release -DPETAL_WERROR=ON -DPETAL_COVERAGE=OFF)
 [ -e "$build/CMakeCache.txt" ] || options+=(-G Ninja)
 # Several files to a compiler run: reading the headers of MRPT, Eigen and OpenCV costs most of the time of a build
 # from nothing.
-options+=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=6)
+options+=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12)
 read -r -d "" -a more <<<"${CMAKE_OPTIONS:-}" || true
 quiet cmake -S . -B "$build" "${options[@]}" "${more[@]}"
 if [ $# -eq 0 ]; then

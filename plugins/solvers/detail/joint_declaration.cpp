@@ -132,6 +132,9 @@ and takes the intrinsics as exact; the considered one adds what the focal length
 they known only so well. The verdict judges the first: 1 px of principal point alone is 0.06 deg, so with the
 second nothing could ever be usable.
 
+**Tilt.** Boards that differ by yaw alone, say, cannot show an error in pitch that all of them share (a bias of
+a detector, a bent target), however small the noise is: below `usable_tilt_deg` the result is weak.
+
 **Range offset.** All boards may lie too far by one and the same offset. It is a nuisance parameter, free but
 for `range_offset_allowance` times `range_offset_sigma`, so the weights know that the boards' common distance is
 doubtful; its own value is not told, since no few boards determine it.
@@ -156,6 +159,10 @@ docs/joint.md derives and measures all this.)");
     declare_prior_and_focal(s);
     declare_considered_and_advice(s);
     declare_verdict(s);
+    s.param("usable_tilt_deg", &JointParams::usable_tilt_deg)
+        .unit("deg")
+        .within(0.0, 90.0)
+        .doc("usable from this RMS of how boards are turned against each other, about every axis");
 }
 
 }  // namespace petal

@@ -21,10 +21,11 @@ struct JointParams : JointNoiseParams, ConsiderParams, VerdictParams {
     /// the pose.
     double range_offset_allowance = 2.0;
     bool estimate_focal = false;
-    double max_focal_sigma = 0.003;                         ///< of 1
-    std::vector<double> prior_translation;                  ///< m; empty: none
-    double prior_sigma = 0.1;                               ///< m
-    std::string prior_camera;                               ///< empty: the only one
+    double usable_tilt_deg = 5.0;           ///< RMS, between the boards, about any axis
+    double max_focal_sigma = 0.003;         ///< of 1
+    std::vector<double> prior_translation;  ///< m; empty: none
+    double prior_sigma = 0.1;               ///< m
+    std::string prior_camera;               ///< empty: the only one
     double advice_min_range = 2.0, advice_max_range = 6.0;  ///< m
 };
 

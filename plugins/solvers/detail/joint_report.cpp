@@ -3,11 +3,8 @@
 
 #include "solvers/detail/joint_report.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 
 #include "petal/calibration/angles.hpp"
 #include "petal/error.hpp"
@@ -15,37 +12,14 @@
 #include "solvers/detail/extrinsics_estimate.hpp"
 #include "solvers/detail/joint_focal.hpp"
 #include "solvers/detail/joint_scenes.hpp"
+#include "solvers/detail/pixel_drift.hpp"
 #include "solvers/detail/placement_advice.hpp"
-#include "solvers/detail/reprojection_cost.hpp"
+#include "solvers/detail/placement_tilt.hpp"
 
 namespace petal {
 namespace {
 
-constexpr double kDriftRanges[] = {5.0, 20.0, 50.0};  // m
-constexpr double kUpperZ3 = 3.0902;                   // one-sided 99.9 %
-
-/// The largest 1 sigma of a pixel straight ahead, px.
-double pixel_sigma(const CameraModel& model, const Matrix6d& covariance, double range) {
-    const Eigen::Vector3d ahead(0.0, 0.0, range);
-    Eigen::Matrix<double, 2, 3> by_point;
-    if (!model.project(ahead, &by_point)) return 0.0;
-    const Eigen::Matrix<double, 2, 6> jacobian = projection_jacobian(by_point, ahead);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(
-        jacobian * covariance * jacobian.transpose(), Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
-}
-
-std::string drift_text(const std::vector<Diagnosis::Drift>& drifts) {
-    std::string ranges, exact, considered;
-    for (std::size_t i = 0; i < drifts.size(); ++i) {
-        const char* comma = i == 0 ? "" : i + 1 == drifts.size() ? " and " : ", ";
-        ranges += comma + printed("%g", drifts[i].range);
-        exact += comma + printed("%.1f", drifts[i].px);
-        considered += comma + printed("%.1f", drifts[i].considered_px);
-    }
-    return "; straight ahead at " + ranges + " m that is " + exact + " px (" + considered +
-           " px with the doubt in the intrinsics)";
-}
+constexpr double kUpperZ3 = 3.0902;  // one-sided 99.9 %
 
 class JointReport {
    public:
@@ -74,6 +48,7 @@ class JointReport {
             Diagnosis& diagnosis = *camera.diagnosis;
             diagnosis.scenes = scenes[c];
             lower(judge(camera, params_, reasons_));
+            tell_tilt(c);
             tell_assumed(c);
             tell_focal(c, *diagnosis.focal);
             tell_outliers(c, scenes);
@@ -160,10 +135,7 @@ class JointReport {
         diagnosis.variance_scale = uncertainty.variance_scale();
         diagnosis.covariance_considered = uncertainty.covariance_considered(c, params_);
         diagnosis.focal = best_focal(input_.model, options_, solution_, uncertainty, c);
-        for (const double range : kDriftRanges)
-            diagnosis.drifts.push_back(
-                {range, pixel_sigma(model, camera.covariance, range),
-                 pixel_sigma(model, diagnosis.covariance_considered, range)});
+        diagnosis.drifts = pixel_drifts(model, camera.covariance, diagnosis.covariance_considered);
         AdviceParams advice;
         advice.range_offset_sigma = params_.range_offset_sigma;
         advice.allowed_range_offset = options_.range_offset_sigma;
@@ -179,6 +151,19 @@ class JointReport {
             describe_weakest(column, advice.usable_sigma_rotation / advice.usable_sigma) +
             drift_text(diagnosis.drifts);
         return camera;
+    }
+
+    void tell_tilt(std::size_t c) {
+        std::vector<Eigen::Vector3d> normals;
+        for (std::size_t b = 0; b < input_.model.boards.size(); ++b)
+            for (const auto& view : input_.model.boards[b].views)
+                if (view.camera == c)
+                    normals.push_back((solution_.state.T_camera_lidar[c].linear() *
+                                       solution_.state.T_lidar_board[b].linear())
+                                          .col(2));
+        const auto tilt = least_tilt(normals);
+        if (!tilt) return;
+        if (const auto doubt = tilt_doubt(*tilt, params_.usable_tilt_deg)) weak(who(c) + *doubt);
     }
 
     void tell_assumed(std::size_t c) {

@@ -99,6 +99,18 @@ TEST(Joint, ThreeYawOnlyPlacementsAreNeverUsable) {
     }
 }
 
+TEST(Joint, YawAloneIsNotUsableHoweverSmallTheNoise) {
+    JointScenes scenes = JointScenes::three_yaw();
+    scenes.lidar_sigma = 0.0004;
+    scenes.lidar_sigma_deg = 0.02;
+    scenes.line_sigma_px = 0.02;
+    const auto stage = joined(scenes.draw(1));
+    EXPECT_LT(principal_sigma(joined_camera(stage)).rotation * kDegrees, 0.06);
+    EXPECT_EQ(stage.verdict(), Level::weak);
+    EXPECT_THAT(stage.reasons(), Contains(HasSubstr("about the camera's x axis, so that an error "
+                                                    "about it that all share would not show")));
+}
+
 TEST(Joint, AWrongFocalLengthIsNamed) {
     for (const double factor : {1.01, 0.99}) {
         JointScenes scenes = JointScenes::four_diverse();
