@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "petal/calibration/angles.hpp"
@@ -24,7 +26,8 @@ constexpr std::size_t kEdgePlacements = 3;
 constexpr double kNearPlane = 0.05;  ///< m: points looked at with a patch
 constexpr double kFlat = 0.01;       ///< m of flatness that outweigh all gain
 constexpr std::size_t kMostDrawn = 40000, kMostKept = 4000;
-constexpr double kOnBoard = 0.4;  ///< of the lesser side: a placement so near a board is it
+constexpr double kOnBoard = 0.7;  ///< of the lesser side: middles so near are not of two boards
+constexpr std::size_t kDraftRays = 24000;
 
 /// What the points cannot tell: m, 1 sigma along x, y and z of the board.
 constexpr double kUnseenAcross = 0.0001, kUnseenDeep = 0.00015;
@@ -40,7 +43,52 @@ void keep_places(const RayBundle& rays, PlateAttempt& attempt) {
     }
 }
 
+/// Limits that a fit to some of the rays keeps wherever one to all of them may keep `limits`. A
+/// target of other measures is told by all rays.
+PlateLimits loosened(const PlateLimits& limits) {
+    PlateLimits loose;
+    loose.min_gain = 0.8 * limits.min_gain;
+    loose.min_open = 0.8 * limits.min_open;
+    loose.min_outline = 0.8 * limits.min_outline;
+    loose.max_flatness = 1.5 * limits.max_flatness;
+    loose.max_shift = 1.5 * limits.max_shift;
+    loose.max_stretch = std::numeric_limits<double>::infinity();
+    return loose;
+}
+
+/// A fit and what it is worth.
+struct JudgedFit {
+    PlateFit fit;
+    PlateSupport support;
+    PlateVerdict verdict;
+};
+
+/// None where the rays do not fix the target.
+std::optional<JudgedFit> fit_and_judge(const PlateTemplate& target, const PlateBeam& beam,
+                                       const PlateLimits& limits, const Cloud& cloud,
+                                       const RayBundle& some, const PlatePlacement& placement) {
+    JudgedFit made;
+    if (!fit_plate(target, beam, some, placement, made.fit)) return std::nullopt;
+    made.support = measure_support(target, made.fit);
+    if (some.crossed > some.rays.size() &&
+        judge_plate(target, loosened(limits), made.fit, made.support).board) {
+        JudgedFit whole;
+        if (!fit_plate(target, beam,
+                       gather_rays(cloud, made.fit.state.T_lidar_middle, reach_of(target)), {},
+                       whole.fit))
+            return std::nullopt;
+        made.fit = std::move(whole.fit);
+        made.support = measure_support(target, made.fit);
+    }
+    made.verdict = judge_plate(target, limits, made.fit, made.support);
+    return made;
+}
+
 }  // namespace
+
+double reach_of(const PlateTemplate& target) {
+    return target.all.radius() + kAroundPlate * target.all.least_side();
+}
 
 LidarBoard board_at(const PlateTemplate& target, const Target& names,
                     const Eigen::Isometry3d& T_lidar_middle, const Matrix6d& covariance) {
@@ -65,15 +113,14 @@ LidarBoard board_at(const PlateTemplate& target, const Target& names,
     return board;
 }
 
-PlacedPlate place_on_rays(const PlateTemplate& target, const Cloud& cloud,
-                          const PlateCandidate& plate) {
+PlacedPlate place_on_rays(const PlateTemplate& target, const PlatePlacer& placer,
+                          const Cloud& cloud, const PlateCandidate& plate) {
     PlacedPlate placed;
     placed.plate = plate;
-    placed.rays = gather_rays(cloud, plane_frame(plate.normal, plate.centre),
-                              target.all.radius() + kAroundPlate * target.all.least_side());
-    placed.gathered = placed.rays.rays.size();
+    placed.rays =
+        gather_rays(cloud, plane_frame(plate.normal, plate.centre), reach_of(target), kDraftRays);
     if (fit_plane(placed.rays, kPlaneRadius * target.all.radius(), kPlaneDepth))
-        placed.placements = place_plate(target.all, placed.rays, kAttemptPlacements);
+        placed.placements = placer.place(placed.rays, kAttemptPlacements);
     if (placed.score() < kLeastScore) {
         // Its rays are no longer needed, but for the picture.
         const std::size_t stride = placed.rays.rays.size() / kMostKept + 1;
@@ -86,15 +133,15 @@ PlacedPlate place_on_rays(const PlateTemplate& target, const Cloud& cloud,
 }
 
 PlateAttempt try_rays(const PlateTemplate& target, const PlateBeam& beam, const PlateLimits& limits,
-                      PlacedPlate placed, const std::vector<Eigen::Vector3d>& boards,
-                      const Target& names) {
+                      const Cloud& cloud, const PlacedPlate& placed,
+                      const std::vector<Eigen::Vector3d>& boards, const Target& names) {
     PlateAttempt attempt;
     attempt.plate = placed.plate;
     attempt.middle = placed.plate.centre;
     attempt.closeness = placed.score();
     keep_places(placed.rays, attempt);
     if (placed.placements.empty()) {
-        attempt.miss = printed("a plate of %zu rays", placed.gathered);
+        attempt.miss = printed("a plate of %zu rays", placed.rays.crossed);
         attempt.threshold = "too few for a plane";
         return attempt;
     }
@@ -114,16 +161,16 @@ PlateAttempt try_rays(const PlateTemplate& target, const PlateBeam& beam, const 
             attempt.closeness = 0.0;
             continue;
         }
-        PlateFit fit;
-        if (!fit_plate(target, beam, placed.rays, placement, fit)) {
+        auto made = fit_and_judge(target, beam, limits, cloud, placed.rays, placement);
+        if (!made) {
             if (attempt.miss.empty()) {
                 attempt.miss = "a plate whose rays do not fix the target";
                 attempt.threshold.clear();
             }
             continue;
         }
-        const PlateSupport support = measure_support(target, fit);
-        PlateVerdict verdict = judge_plate(target, limits, fit, support);
+        const PlateFit& fit = made->fit;
+        PlateVerdict& verdict = made->verdict;
         if (!verdict.board && attempt.placed && verdict.closeness <= attempt.closeness) continue;
         attempt.placed = true;
         attempt.middle = fit.state.T_lidar_middle.translation();
@@ -135,7 +182,7 @@ PlateAttempt try_rays(const PlateTemplate& target, const PlateBeam& beam, const 
         keep_places(fit.rays, attempt);
         if (!verdict.board) continue;
         LidarBoard board = board_at(target, names, fit.state.T_lidar_middle, fit.covariance);
-        board.quality = plate_quality(target, fit, support);
+        board.quality = plate_quality(target, fit, made->support);
         board.quality["agreement"] = placement.score;
         attempt.board = std::move(board);
         break;
@@ -174,7 +221,7 @@ PlateAttempt try_edges(const PlateTemplate& target, const PlateBeam& beam,
     PlateAttempt attempt;
     attempt.plate = patch;
     attempt.middle = patch.centre;
-    const double radius = target.all.radius() + kAroundPlate * target.all.least_side();
+    const double radius = reach_of(target);
     const Eigen::Isometry3d frame = plane_frame(patch.normal, patch.centre);
     std::vector<Eigen::Vector3d> near;
     for (const Eigen::Vector3d& p : points) {

@@ -34,26 +34,29 @@ struct PlateAttempt {
     bool placed = false;
 };
 
-/// The rays around a plate, and where the target may lie among them.
+/// Some of the rays around a plate, and where the target may lie among them.
 struct PlacedPlate {
     PlateCandidate plate;
     RayBundle rays;
     std::vector<PlatePlacement> placements;
-    std::size_t gathered = 0;
     double score() const { return placements.empty() ? -1.0 : placements.front().score; }
     Eigen::Vector3d middle(const PlatePlacement& placement) const {
         return rays.T_lidar_plane *
                Eigen::Vector3d(placement.middle.x(), placement.middle.y(), 0.0);
     }
 };
-PlacedPlate place_on_rays(const PlateTemplate& target, const Cloud& cloud,
-                          const PlateCandidate& plate);
+/// m, from a plate's middle: the rays that are looked at.
+double reach_of(const PlateTemplate& target);
 
-/// Fits the target to the rays around a plate. Where a placement lies on one of the `boards` found
+PlacedPlate place_on_rays(const PlateTemplate& target, const PlatePlacer& placer,
+                          const Cloud& cloud, const PlateCandidate& plate);
+
+/// Fits the target to the rays around a plate: to some of them first, and where that comes near a
+/// board to all of them. Where a placement overlaps one of the `boards` (their middles) found
 /// already it is left out.
 PlateAttempt try_rays(const PlateTemplate& target, const PlateBeam& beam, const PlateLimits& limits,
-                      PlacedPlate placed, const std::vector<Eigen::Vector3d>& boards,
-                      const Target& names);
+                      const Cloud& cloud, const PlacedPlate& placed,
+                      const std::vector<Eigen::Vector3d>& boards, const Target& names);
 
 /// Tries it on points of edges near a plane patch.
 PlateAttempt try_edges(const PlateTemplate& target, const PlateBeam& beam,

@@ -43,7 +43,7 @@ Mask mask_of(std::initializer_list<int> free) {
 /// Levenberg's steps over the free parameters. False where nothing fixes them.
 bool climb(const PlateShape& shape, const PlatePriors& priors, const ToldRays& rays,
            const Mask& free, int steps, PlateState& state) {
-    PlateEvaluation at = evaluate_plate(shape, state, priors, rays);
+    PlateEvaluation at = evaluate_plate(shape, state, priors, rays, PlateScores::left_out);
     std::vector<int> index;
     for (int i = 0; i < kPlateParameters; ++i)
         if (free[static_cast<std::size_t>(i)]) index.push_back(i);
@@ -74,7 +74,7 @@ bool climb(const PlateShape& shape, const PlatePriors& priors, const ToldRays& r
                       move.segment<2>(kWidthLevel).cwiseAbs().maxCoeff() / 0.7, 1.0});
         move /= most;
         PlateState next = moved(state, move);
-        PlateEvaluation there = evaluate_plate(shape, next, priors, rays);
+        PlateEvaluation there = evaluate_plate(shape, next, priors, rays, PlateScores::left_out);
         if (there.value > at.value) {
             const double gained = there.value - at.value;
             state = next;
@@ -95,11 +95,11 @@ double floor_of(const PlateShape& shape, const RayBundle& rays, double margin) {
     for (const PlaneRay& ray : rays.rays) {
         const Told told = rays.told(ray);
         if (told == Told::nothing || !shape.in_zone(ray.place)) continue;
-        const double inside = shape.edge(ray.place).inside;
-        if (inside > margin) {
+        const int beyond = shape.beyond(ray.place, margin);
+        if (beyond > 0) {
             plate += 1.0;
             plate_missed += told == Told::miss;
-        } else if (inside < -margin) {
+        } else if (beyond < 0) {
             hole += 1.0;
             hole_hit += told == Told::hit;
         }
@@ -118,12 +118,12 @@ void choose_rays(const PlateShape& shape, const RayBundle& bundle, std::size_t s
     for (const PlaneRay& ray : bundle.rays) {
         const Told told = bundle.told(ray);
         if (told == Told::nothing || !shape.in_zone(ray.place)) continue;
-        const double inside = shape.edge(ray.place).inside;
-        if (std::abs(inside) <= kBand) {
+        const int beyond = shape.beyond(ray.place, kBand);
+        if (beyond == 0) {
             if (near++ % stride == 0) zone.rays.push_back({ray.point, told == Told::hit});
             continue;
         }
-        ((inside > 0.0) == (told == Told::hit) ? zone.right : zone.wrong) += 1.0;
+        ((beyond > 0) == (told == Told::hit) ? zone.right : zone.wrong) += 1.0;
         if (told == Told::hit) zone.far_hits += 1.0;
     }
 }
@@ -160,7 +160,8 @@ double common_of(const PlateShape& shape, const PlateEvaluation& at) {
 /// plate's own points.
 PlateMatrix covariance_of(const PlateShape& shape, const PlateFit& fit, const PlatePriors& priors,
                           bool stretches) {
-    const PlateEvaluation at = evaluate_plate(shape, fit.state, priors, fit.zone);
+    const PlateEvaluation at =
+        evaluate_plate(shape, fit.state, priors, fit.zone, PlateScores::gathered);
     PlateMatrix information = at.observed;
     information.block<3, 3>(kRhoZ, kRhoZ) += fit.plane.information;
     if (!stretches)
@@ -196,8 +197,8 @@ bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle ray
     const auto take_plane = [&] {
         replace_plane(rays, state.T_lidar_middle);
         measure_ranges(
-            rays, [&](const auto& p) { return target.all.edge(p).inside > margin; },
-            [&](const auto& p) { return target.all.edge(p).inside < -margin; });
+            rays, [&](const auto& p) { return target.all.beyond(p, margin) > 0; },
+            [&](const auto& p) { return target.all.beyond(p, margin) < 0; });
     };
     const auto settle = [&](std::size_t stride) {
         choose_rays(shape, rays, stride, fit.zone);
@@ -225,7 +226,8 @@ bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle ray
     replace_plane(rays, state.T_lidar_middle);
     fit.plane = measure_plate(target.all, rays, margin);
 
-    const PlateEvaluation at = evaluate_plate(shape, state, priors, fit.zone);
+    const PlateEvaluation at =
+        evaluate_plate(shape, state, priors, fit.zone, PlateScores::gathered);
     fit.side_common = common_of(shape, at);
     const PlateMatrix covariance = covariance_of(shape, fit, priors, false);
     fit.covariance = covariance.topLeftCorner<6, 6>();
@@ -237,7 +239,8 @@ bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle ray
     stretched[kStretchX] = stretched[kStretchY] = true;
     if (climb(shape, priors, fit.zone, stretched, kFitSteps, other.state)) {
         fit.stretch = other.state.stretch;
-        other.side_common = common_of(shape, evaluate_plate(shape, other.state, priors, fit.zone));
+        other.side_common = common_of(
+            shape, evaluate_plate(shape, other.state, priors, fit.zone, PlateScores::gathered));
         fit.stretch_sigma = covariance_of(shape, other, priors, true)
                                 .diagonal()
                                 .segment<2>(kStretchX)

@@ -64,10 +64,10 @@ PlateSupport measure_support(const PlateTemplate& target, const PlateFit& fit) {
     // Openings: holes first, then what lies beyond the sides of the outline.
     std::vector<Opening> openings(holes + all.side_count());
     const auto opening_at = [&](const Eigen::Vector2d& p) -> Opening* {
-        const PlateShape::Edge edge = all.edge(p);
-        if (edge.inside > -deep) return nullptr;
+        if (all.beyond(p, deep) >= 0) return nullptr;
         const int hole = all.hole_at(p);
         if (hole >= 0) return &openings[static_cast<std::size_t>(hole)];
+        const PlateShape::Edge edge = all.edge(p);
         if (edge.inside < -deep - ring) return nullptr;
         return &openings[holes + static_cast<std::size_t>(edge.side)];
     };
@@ -87,11 +87,11 @@ PlateSupport measure_support(const PlateTemplate& target, const PlateFit& fit) {
             (told == Told::hit    ? opening->hits
              : told == Told::miss ? opening->misses
                                   : opening->hidden) += 1.0;
-        } else if (told != Told::nothing && all.edge(ray.place).inside > deep) {
+        } else if (told != Told::nothing && all.beyond(ray.place, deep) > 0) {
             plate += 1.0;
             plate_hits += told == Told::hit;
         }
-        if (told != Told::hit) continue;
+        if (told != Told::hit || target.holes.beyond(ray.place, 2.0 * deep) != 0) continue;
         const PlateShape::Edge edge = target.holes.edge(ray.place);
         if (edge.inside < 0.0 || edge.inside > 2.0 * deep) continue;
         const double along = target.holes.share_along(edge.side, ray.place);

@@ -3,8 +3,11 @@
 
 #include "detectors/detail/lidar_template_likelihood.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "petal/calibration/se3.hpp"
 
@@ -14,6 +17,7 @@ namespace {
 constexpr double kFar = 12.0;           ///< widths off an edge: what it does there is below 1e-5
 constexpr double kAlongUp = 0.995;      ///< cosine, 6 deg
 constexpr double kLeastWidth = 0.0003;  ///< m
+constexpr std::size_t kPiece = 2048;    ///< rays that are summed together
 
 /// What one place adds for a probability of `p` with slope dp/dD.
 struct Passage {
@@ -128,56 +132,115 @@ PlateVector edge_jacobian(const SeenEdge& edge, const Crossing& crossing) {
     return jacobian;
 }
 
-PlateEvaluation evaluate_plate(const PlateShape& shape, const PlateState& state,
-                               const PlatePriors& priors, const ToldRays& rays) {
-    PlateEvaluation evaluation;
-    evaluation.sides.resize(shape.side_count());
-    const Eigen::Isometry3d to_middle = state.T_lidar_middle.inverse();
-    const Eigen::Matrix2d axes = beam_axes(state.T_lidar_middle);
-    const Eigen::Vector2d widths = state.log_width.array().exp();
-    const double log_floor = std::log(rays.floor), log_rest = std::log1p(-rays.floor);
+namespace {
 
-    // `sign`: +1 a hit, -1 a miss, 0 a silent place of `count` rays.
-    const auto add = [&](const Eigen::Vector3d& point, int sign, double count) {
-        const Crossing crossing = cross_board(to_middle, point);
-        const SeenEdge edge = see_edge(shape, state, axes, widths, crossing);
+/// Adds up what rays and silent places say.
+class PlateSum {
+   public:
+    PlateSum(const PlateShape& shape, const PlateState& state, double floor, PlateScores scores)
+        : shape_(shape),
+          state_(state),
+          to_middle_(state.T_lidar_middle.inverse()),
+          axes_(beam_axes(state.T_lidar_middle)),
+          widths_(state.log_width.array().exp()),
+          floor_(floor),
+          log_floor_(std::log(floor)),
+          log_rest_(std::log1p(-floor)),
+          scores_(scores == PlateScores::gathered) {}
+
+    /// `sign`: +1 a hit, -1 a miss, 0 a silent place of `count` rays.
+    void add(const Eigen::Vector3d& point, int sign, double count, PlateEvaluation& sum) const {
+        const Crossing crossing = cross_board(to_middle_, point);
+        const SeenEdge edge = see_edge(shape_, state_, axes_, widths_, crossing);
         if (std::abs(edge.inside) > kFar * edge.width) {
             const bool on_plate = edge.inside > 0.0;
             if (sign == 0)
-                evaluation.rays_value -= count * (on_plate ? 1.0 - rays.floor : rays.floor);
+                sum.rays_value -= count * (on_plate ? 1.0 - floor_ : floor_);
             else
-                evaluation.rays_value += on_plate == (sign > 0) ? log_rest : log_floor;
+                sum.rays_value += on_plate == (sign > 0) ? log_rest_ : log_floor_;
             return;
         }
-        const Passage at = passage(edge.inside, edge.width, rays.floor);
+        const Passage at = passage(edge.inside, edge.width, floor_);
         PlateVector jacobian = edge_jacobian(edge, crossing);
         // dD/dw enters as -D / w: a wider passage is the same as a shorter way to the edge.
-        const Eigen::Vector2d share = edge.across.cwiseProduct(widths) / edge.width;
+        const Eigen::Vector2d share = edge.across.cwiseProduct(widths_) / edge.width;
         jacobian.segment<2>(kWidthLevel) = -edge.inside * share.cwiseAbs2();
         double score, expected, observed;
         if (sign == 0) {
-            evaluation.rays_value -= count * at.p;
+            sum.rays_value -= count * at.p;
             score = -count * at.slope;
             expected = count * at.slope * at.slope / at.p;
             observed = 0.0;
         } else {
             const double p = sign > 0 ? at.p : 1.0 - at.p;
-            evaluation.rays_value += std::log(p);
+            sum.rays_value += std::log(p);
             score = sign * at.slope / p;
             expected = at.slope * at.slope / (at.p * (1.0 - at.p));
             observed = score * score;
         }
-        evaluation.gradient.noalias() += score * jacobian;
-        evaluation.expected.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, expected);
-        evaluation.observed.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, observed);
-        PlateEvaluation::Side& side = evaluation.sides[static_cast<std::size_t>(edge.side)];
+        sum.gradient.noalias() += score * jacobian;
+        sum.expected.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, expected);
+        if (!scores_) return;
+        sum.observed.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, observed);
+        PlateEvaluation::Side& side = sum.sides[static_cast<std::size_t>(edge.side)];
         side.score += score;
         side.information += observed;
         side.pull += observed * jacobian;
-    };
-    evaluation.rays_value = rays.right * log_rest + rays.wrong * log_floor;
-    for (const ToldRays::Ray& ray : rays.rays) add(ray.point, ray.hit ? 1 : -1, 1.0);
-    for (const ToldRays::Silent& silent : rays.silent) add(silent.point, 0, silent.rays);
+    }
+
+    PlateEvaluation of(const ToldRays& rays, std::size_t begin, std::size_t end) const {
+        PlateEvaluation sum;
+        if (scores_) sum.sides.resize(shape_.side_count());
+        for (std::size_t i = begin; i < std::min(end, rays.rays.size()); ++i)
+            add(rays.rays[i].point, rays.rays[i].hit ? 1 : -1, 1.0, sum);
+        for (std::size_t i = std::max(begin, rays.rays.size()); i < end; ++i) {
+            const ToldRays::Silent& silent = rays.silent[i - rays.rays.size()];
+            add(silent.point, 0, silent.rays, sum);
+        }
+        return sum;
+    }
+
+    double far(const ToldRays& rays) const {
+        return rays.right * log_rest_ + rays.wrong * log_floor_;
+    }
+
+   private:
+    const PlateShape& shape_;
+    const PlateState& state_;
+    Eigen::Isometry3d to_middle_;
+    Eigen::Matrix2d axes_;
+    Eigen::Vector2d widths_;
+    double floor_, log_floor_, log_rest_;
+    bool scores_;
+};
+
+void add_up(const PlateEvaluation& part, PlateEvaluation& sum) {
+    sum.rays_value += part.rays_value;
+    sum.gradient += part.gradient;
+    sum.expected += part.expected;
+    sum.observed += part.observed;
+    for (std::size_t s = 0; s < part.sides.size(); ++s) {
+        sum.sides[s].score += part.sides[s].score;
+        sum.sides[s].information += part.sides[s].information;
+        sum.sides[s].pull += part.sides[s].pull;
+    }
+}
+
+}  // namespace
+
+PlateEvaluation evaluate_plate(const PlateShape& shape, const PlateState& state,
+                               const PlatePriors& priors, const ToldRays& rays,
+                               PlateScores scores) {
+    const PlateSum plate(shape, state, rays.floor, scores);
+    const std::size_t count = rays.rays.size() + rays.silent.size();
+    std::vector<PlateEvaluation> parts((count + kPiece - 1) / kPiece);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+        parts[k] = plate.of(rays, k * kPiece, std::min(count, (k + 1) * kPiece));
+    });
+    PlateEvaluation evaluation;
+    if (scores == PlateScores::gathered) evaluation.sides.resize(shape.side_count());
+    evaluation.rays_value = plate.far(rays);
+    for (const PlateEvaluation& part : parts) add_up(part, evaluation);
 
     evaluation.expected = evaluation.expected.selfadjointView<Eigen::Lower>();
     evaluation.observed = evaluation.observed.selfadjointView<Eigen::Lower>();

@@ -117,7 +117,8 @@ struct PlateEvaluation {
     double rays_value = 0.0;  ///< without
     PlateVector gradient = PlateVector::Zero();
     PlateMatrix expected = PlateMatrix::Zero();  ///< Fisher's information, for steps
-    PlateMatrix observed = PlateMatrix::Zero();  ///< from the scores, for the covariance
+    /// From the scores, for the covariance. This and `sides` only where asked for.
+    PlateMatrix observed = PlateMatrix::Zero();
     struct Side {
         double score = 0.0, information = 0.0;   ///< of a shift of this side alone, into the plate
         PlateVector pull = PlateVector::Zero();  ///< what it does to the gradient
@@ -134,7 +135,10 @@ struct PlateEvaluation {
 /// d the distance of the crossing u to the template's edge (positive on the plate, of the front or
 /// behind a hole's wall the back face), n the edge's normal, a_l and a_u the beam's axes on the
 /// board. The last sum is what a Poisson process of known density says where nothing returns.
+///
+/// On the threads of the calling task, summed in the same order for any number of them.
+enum class PlateScores { left_out, gathered };
 PlateEvaluation evaluate_plate(const PlateShape& shape, const PlateState& state,
-                               const PlatePriors& priors, const ToldRays& rays);
+                               const PlatePriors& priors, const ToldRays& rays, PlateScores scores);
 
 }  // namespace petal

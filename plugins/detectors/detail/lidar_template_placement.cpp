@@ -43,20 +43,42 @@ struct Raster {
     }
 };
 
-/// The best places of all turns of a kernel over an image of evidence.
+double angle_of(const PlateShape& shape, std::size_t turn, std::size_t turns) {
+    return 2.0 * kPi / shape.symmetry() * static_cast<double>(turn) / static_cast<double>(turns);
+}
+
+/// A kernel for each turn, evenly over all that look different, as spectra: images of one size are
+/// correlated with all of them.
+std::vector<cv::Mat> kernel_spectra(const PlateShape& shape, double step_deg, const Raster& raster,
+                                    const std::function<cv::Mat(double)>& kernel_of) {
+    std::vector<cv::Mat> spectra(
+        static_cast<std::size_t>(std::ceil(360.0 / shape.symmetry() / step_deg)));
+    for (std::size_t turn = 0; turn < spectra.size(); ++turn) {
+        const cv::Mat kernel = kernel_of(angle_of(shape, turn, spectra.size()));
+        const int size = cv::getOptimalDFTSize(raster.size() + kernel.rows - 1);
+        cv::Mat padded = cv::Mat::zeros(size, size, CV_32F);
+        kernel.copyTo(padded(cv::Rect(0, 0, kernel.cols, kernel.rows)));
+        cv::dft(padded, spectra[turn], 0, kernel.rows);
+    }
+    return spectra;
+}
+
+/// The best places of all kernels over an image of evidence.
 std::vector<PlatePlacement> correlate(const PlateShape& shape, const Raster& raster,
-                                      const cv::Mat& evidence, double step_deg,
-                                      const std::function<cv::Mat(double)>& kernel_of,
-                                      std::size_t keep) {
+                                      const Raster& small, const cv::Mat& evidence,
+                                      const std::vector<cv::Mat>& spectra, std::size_t keep) {
     const double whole = 2.0 * kPi / shape.symmetry();
-    const int turns = static_cast<int>(std::ceil(whole * kDegrees / step_deg));
+    // Moved by half a kernel: where a kernel's corner lies, its middle shall be told.
+    cv::Mat padded = cv::Mat::zeros(spectra.front().size(), CV_32F), spectrum, product, responses;
+    evidence.copyTo(padded(cv::Rect(small.half, small.half, evidence.cols, evidence.rows)));
+    cv::dft(padded, spectrum, 0, small.half + evidence.rows);
     std::vector<PlatePlacement> found;
-    for (int turn = 0; turn < turns; ++turn) {
+    for (std::size_t turn = 0; turn < spectra.size(); ++turn) {
         PlatePlacement placement;
-        placement.angle = whole * turn / turns;
-        cv::Mat response;
-        cv::filter2D(evidence, response, CV_32F, kernel_of(placement.angle), cv::Point(-1, -1), 0.0,
-                     cv::BORDER_CONSTANT);
+        placement.angle = angle_of(shape, turn, spectra.size());
+        cv::mulSpectrums(spectrum, spectra[turn], product, 0, true);
+        cv::idft(product, responses, cv::DFT_SCALE | cv::DFT_REAL_OUTPUT, evidence.rows);
+        cv::Mat response = responses(cv::Rect(0, 0, evidence.cols, evidence.rows));
         // The best few of each turn: the next best lies beside the best unless that is taken out.
         for (std::size_t k = 0; k < keep; ++k) {
             double score = 0.0;
@@ -83,6 +105,15 @@ std::vector<PlatePlacement> correlate(const PlateShape& shape, const Raster& ras
         if (best.size() == keep) break;
     }
     return best;
+}
+
+Raster plate_raster(const PlateShape& shape, double radius) {
+    return Raster(shape.least_side() / kCellsInSide, radius);
+}
+
+Raster kernel_raster(const PlateShape& shape) {
+    return Raster(shape.least_side() / kCellsInSide,
+                  shape.radius() + kRingShare * shape.least_side());
 }
 
 cv::Mat evidence_of(const RayBundle& bundle, const Raster& raster) {
@@ -121,12 +152,9 @@ cv::Mat evidence_of(const RayBundle& bundle, const Raster& raster) {
 
 }  // namespace
 
-std::vector<PlatePlacement> place_plate(const PlateShape& shape, const RayBundle& rays,
-                                        std::size_t keep) {
-    const double cell = shape.least_side() / kCellsInSide;
-    const Raster raster(cell, rays.radius);
+PlatePlacer::PlatePlacer(const PlateShape& shape, double radius) : shape_(shape), radius_(radius) {
     const double ring = kRingShare * shape.least_side();
-    const Raster small(cell, shape.radius() + ring);
+    const Raster small = kernel_raster(shape);
     const auto kernel_of = [&](double angle) {
         cv::Mat kernel = cv::Mat::zeros(small.size(), small.size(), CV_32F);
         const Eigen::Rotation2Dd to_board(-angle);
@@ -150,7 +178,13 @@ std::vector<PlatePlacement> place_plate(const PlateShape& shape, const RayBundle
                 static_cast<float>((kind == 0 ? 1.0 : -1.0) / (parts * counts[kind]));
         return kernel;
     };
-    return correlate(shape, raster, evidence_of(rays, raster), kPlacementStep, kernel_of, keep);
+    spectra_ = kernel_spectra(shape, kPlacementStep, plate_raster(shape, radius), kernel_of);
+}
+
+std::vector<PlatePlacement> PlatePlacer::place(const RayBundle& rays, std::size_t keep) const {
+    const Raster raster = plate_raster(shape_, radius_);
+    return correlate(shape_, raster, kernel_raster(shape_), evidence_of(rays, raster), spectra_,
+                     keep);
 }
 
 std::vector<PlatePlacement> place_edges(const PlateShape& shape,
@@ -189,7 +223,8 @@ std::vector<PlatePlacement> place_edges(const PlateShape& shape,
             }
         return kernel;
     };
-    return correlate(shape, raster, evidence, kEdgeStep, kernel_of, keep);
+    return correlate(shape, raster, small, evidence,
+                     kernel_spectra(shape, kEdgeStep, raster, kernel_of), keep);
 }
 
 }  // namespace petal

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "detectors/detail/lidar_template_rays.hpp"
@@ -20,12 +21,22 @@ struct PlatePlacement {
     double score = 0.0;
 };
 
-/// Correlates hits (+1), misses (-1) and places where no ray returned although many should have
-/// (-1) with the target: plate +, holes -, a ring around the outline -, each kind with the same
-/// weight, in all turns that look different. What is hidden counts for nothing. The best first,
-/// at most `keep`, no two alike.
-std::vector<PlatePlacement> place_plate(const PlateShape& shape, const RayBundle& rays,
-                                        std::size_t keep);
+/// Finds the target among rays. Correlates hits (+1), misses (-1) and places where no ray returned
+/// although many should have (-1) with the target: plate +, holes -, a ring around the outline -,
+/// each kind with the same weight, in all turns that look different. What is hidden counts for
+/// nothing.
+class PlatePlacer {
+   public:
+    /// For rays within `radius` (m) of a place.
+    PlatePlacer(const PlateShape& shape, double radius);
+    /// The best first, at most `keep`, no two alike.
+    std::vector<PlatePlacement> place(const RayBundle& rays, std::size_t keep) const;
+
+   private:
+    const PlateShape& shape_;
+    double radius_;
+    std::vector<cv::Mat> spectra_;  ///< of the kernel of each turn
+};
 
 /// The same for points on edges alone: correlates them with the sides.
 std::vector<PlatePlacement> place_edges(const PlateShape& shape,

@@ -38,7 +38,7 @@ bool turn_into_plate(const PlateShape& shape, const RayBundle& rays, double marg
     for (const PlaneRay& ray : rays.rays) {
         if (rays.told(ray) != Told::hit) continue;
         const Eigen::Vector3d q = to_board * Eigen::Vector3d(ray.place.x(), ray.place.y(), 0.0);
-        if (shape.edge(q.head<2>()).inside <= margin) continue;
+        if (shape.beyond(q.head<2>(), margin) <= 0) continue;
         const Eigen::Vector3d at(1.0, ray.place.x(), ray.place.y());
         normal += at * at.transpose();
         right += at * into.dot(ray.point - origin);
@@ -74,7 +74,7 @@ PlaneOfPlate measure_plate(const PlateShape& shape, const RayBundle& rays, doubl
     };
     double squares = 0.0;
     for (const PlaneRay& ray : rays.rays) {
-        if (rays.told(ray) != Told::hit || shape.edge(ray.place).inside <= margin) continue;
+        if (rays.told(ray) != Told::hit || shape.beyond(ray.place, margin) <= 0) continue;
         const double off = into.dot(ray.point - origin);
         Part& part = parts[part_of(ray.place.y(), shape.height()) * kParts +
                            part_of(ray.place.x(), shape.width())];

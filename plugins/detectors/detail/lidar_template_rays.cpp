@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "petal/calibration/plane_fit.hpp"
@@ -23,7 +24,8 @@ constexpr int kPlaneFits = 4;
 
 }  // namespace
 
-RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane, double radius) {
+RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane, double radius,
+                      std::size_t most) {
     RayBundle bundle;
     bundle.radius = radius;
     bundle.T_lidar_plane = T_lidar_plane;
@@ -34,6 +36,7 @@ RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane
     const auto& ys = cloud.points->getPointsBufferRef_y();
     const auto& zs = cloud.points->getPointsBufferRef_z();
     const double limit = radius * radius;
+    std::vector<std::uint32_t> crossing;
     for (std::size_t i = 0; i < xs.size(); ++i) {
         const Eigen::Vector3d p(static_cast<double>(xs[i]), static_cast<double>(ys[i]),
                                 static_cast<double>(zs[i]));
@@ -41,11 +44,18 @@ RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane
         if (!(deep > 0.0)) continue;
         const double scale = distance / deep;
         if (!((scale * p - origin).squaredNorm() <= limit)) continue;
-        const double range = p.norm();
-        if (deep < kRaysLeastSine * range) continue;
-        PlaneRay ray;
-        ray.point = p;
-        bundle.rays.push_back(ray);
+        if (deep < kRaysLeastSine * p.norm()) continue;
+        crossing.push_back(static_cast<std::uint32_t>(i));
+    }
+    bundle.crossed = crossing.size();
+    const std::size_t stride = crossing.size() / std::max<std::size_t>(most, 1) + 1;
+    bundle.rays.reserve(crossing.size() / stride + 1);
+    for (std::size_t k = 0; k < crossing.size(); k += stride) {
+        const std::size_t i = crossing[k];
+        bundle.rays.push_back(
+            {{static_cast<double>(xs[i]), static_cast<double>(ys[i]), static_cast<double>(zs[i])},
+             {0.0, 0.0},
+             0.0});
     }
     replace_plane(bundle, T_lidar_plane);
     return bundle;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "petal/calibration/cloud.hpp"
@@ -29,6 +30,7 @@ struct RayBundle {
     Eigen::Isometry3d T_lidar_plane = Eigen::Isometry3d::Identity();  ///< z away from the sensor
     double radius = 0.0;
     std::vector<PlaneRay> rays;
+    std::size_t crossed = 0;   ///< how many there were to choose `rays` from
     double range_sigma = 0.0;  ///< m: robust scatter of those on the plane
     double hit_depth = 0.0;    ///< m: a ray that returned not farther than this from the plane hit
     double gap = 0.0;          ///< m: from the plane to the nearest surface behind it; 0: none
@@ -39,8 +41,10 @@ struct RayBundle {
     }
 };
 
-/// Gathers them: one pass over the cloud. Rays that cross flatter than 6 deg show no place.
-RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane, double radius);
+/// Gathers them, evenly thinned to about `most` at least: one pass over the cloud. Rays that cross
+/// flatter than 6 deg show no place.
+RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane, double radius,
+                      std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// The same rays with another plane.
 void replace_plane(RayBundle& rays, const Eigen::Isometry3d& T_lidar_plane);

@@ -16,7 +16,8 @@ namespace {
 constexpr double kRimShare = 0.08;  ///< of the board's lesser side: 40 mm of 500
 constexpr double kRimToHole = 0.4;  ///< of the way from the outline to the nearest hole
 constexpr int kEighths = 8;
-constexpr double kProbe = 1e-6;  ///< m
+constexpr double kProbe = 1e-6;           ///< m
+constexpr double kHalfDiagonal = 0.7072;  ///< of a square's side, rounded up
 
 double area_of(const std::vector<Eigen::Vector2d>& polygon) {
     double twice = 0.0;
@@ -152,6 +153,11 @@ bool PlateShape::on_plate(const Eigen::Vector2d& p) const {
 }
 
 bool PlateShape::in_zone(const Eigen::Vector2d& p) const {
+    const double limit = outline_counts_ ? -reach_ : rim_;
+    // Distances differ by no more than places do.
+    if (const std::size_t cell = cell_at(p);
+        cell != kNoCell && std::abs(in_outline_[cell] - limit) > kHalfDiagonal * cell_)
+        return in_outline_[cell] > limit;
     if (outline_counts_) return in_outline(p) || distance_to_polygon(outline_, p) <= reach_;
     return in_outline(p) && distance_to_polygon(outline_, p) >= rim_;
 }
@@ -201,11 +207,21 @@ PlateShape::Edge PlateShape::edge_of(const Eigen::Vector2d& p, const std::uint16
 }
 
 PlateShape::Edge PlateShape::edge(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d at = (p - grid_min_) / cell_;
-    if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < columns_ && at.y() < rows_))
+    const std::size_t cell = cell_at(p);
+    if (cell == kNoCell)
         return edge_of(p, everything_.data(), everything_.data() + everything_.size());
-    const std::size_t cell = cell_of(at);
     return edge_of(p, nearest_.data() + begins_[cell], nearest_.data() + begins_[cell + 1]);
+}
+
+int PlateShape::beyond(const Eigen::Vector2d& p, double band) const {
+    const std::size_t cell = cell_at(p);
+    if (cell != kNoCell) {
+        const double least = band + kHalfDiagonal * cell_;
+        if (inside_[cell] > least) return 1;
+        if (inside_[cell] < -least) return -1;
+    }
+    const double inside = edge(p).inside;
+    return inside > band ? 1 : inside < -band ? -1 : 0;
 }
 
 bool PlateShape::is_round(int side) const {

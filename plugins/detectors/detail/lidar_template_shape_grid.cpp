@@ -13,7 +13,7 @@ namespace petal {
 namespace {
 
 constexpr double kShapeCellShare = 0.02;  ///< of the lesser side
-constexpr double kShapeAround = 0.25;     ///< of the lesser side: the grid goes on so far
+constexpr double kShapeAround = 0.6;      ///< of the lesser side: the grid goes on so far
 constexpr double kUnlike = 0.02;  ///< of the lesser side: by what the shifts of two sides differ
 constexpr double kShapeSameTurn = 1e-6;  ///< m
 
@@ -38,6 +38,9 @@ void PlateShape::build_grid() {
             const Eigen::Vector2d p = grid_min_ + cell_ * Eigen::Vector2d(column + 0.5, row + 0.5);
             for (std::size_t k = 0; k < primitives_.size(); ++k)
                 distances[k] = std::abs(edge_of(p, &everything_[k], &everything_[k] + 1).inside);
+            inside_.push_back(
+                edge_of(p, everything_.data(), everything_.data() + everything_.size()).inside);
+            in_outline_.push_back(in_outline(p) ? distance_to_outline(p) : -distance_to_outline(p));
             const double least = *std::min_element(distances.begin(), distances.end());
             for (std::size_t k = 0; k < primitives_.size(); ++k)
                 if (distances[k] <= least + diagonal) nearest_.push_back(everything_[k]);

@@ -39,7 +39,7 @@ double add_silent(const PlateTemplate& target, const RayBundle& bundle, double m
     double area = 0.0, count = 0.0;
     for (int row = 0; row < size; ++row)
         for (int column = 0; column < size; ++column)
-            if (target.all.edge(place(column, row)).inside > margin) {
+            if (target.all.beyond(place(column, row), margin) > 0) {
                 plate.at<float>(row, column) = static_cast<float>(square);
                 area += square;
             }
@@ -59,8 +59,8 @@ double add_silent(const PlateTemplate& target, const RayBundle& bundle, double m
             hits.at<float>(row, column) += 1.0F;
             count += 1.0;
         } else if (told != Told::hit) {  // what is hidden did return
-            const PlateShape::Edge edge = shape.edge(ray.place);
-            if (edge.inside < -margin) opening_of(ray.place, edge.side).missed += 1.0;
+            if (shape.beyond(ray.place, margin) < 0)
+                opening_of(ray.place, shape.edge(ray.place).side).missed += 1.0;
         }
     }
     zone.silent.clear();

@@ -285,12 +285,12 @@ TEST(LidarTemplate, TheGradientIsThatOfTheLikelihood) {
         rays.rays.push_back({p, on});
         if (i % 3 == 0) rays.silent.push_back({p, uniform(rng, 0.0, 1.0), on});
     }
-    const PlateEvaluation at = evaluate_plate(plate.holes, state, priors, rays);
+    const PlateEvaluation at = evaluate_plate(plate.holes, state, priors, rays, PlateScores::left_out);
     for (int k = 0; k < kPlateParameters; ++k) {
         PlateVector step = PlateVector::Zero();
         step(k) = 1e-6;
-        const double up = evaluate_plate(plate.holes, moved(state, step), priors, rays).value;
-        const double down = evaluate_plate(plate.holes, moved(state, -step), priors, rays).value;
+        const double up = evaluate_plate(plate.holes, moved(state, step), priors, rays, PlateScores::left_out).value;
+        const double down = evaluate_plate(plate.holes, moved(state, -step), priors, rays, PlateScores::left_out).value;
         // A turn also turns the beam's axes on the board, which the gradient leaves out.
         const double tolerance = k >= kPhiX && k <= kPhiZ ? 0.35 : 0.02;
         EXPECT_NEAR(at.gradient(k), (up - down) / 2e-6, tolerance * std::abs(at.gradient(k)) + 1.0)
