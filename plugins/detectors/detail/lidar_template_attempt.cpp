@@ -74,8 +74,8 @@ std::optional<JudgedFit> fit_and_judge(const PlateTemplate& target, const PlateB
         judge_plate(target, loosened(limits), made.fit, made.support).board) {
         JudgedFit whole;
         if (!fit_plate(target, beam,
-                       gather_rays(cloud, made.fit.state.T_lidar_middle, reach_of(target)), {},
-                       whole.fit))
+                       gather_rays(cloud, made.fit.state.T_lidar_middle, reach_of(target)),
+                       made.fit.state, whole.fit))
             return std::nullopt;
         made.fit = std::move(whole.fit);
         made.support = measure_support(target, made.fit);

@@ -174,25 +174,28 @@ PlateMatrix covariance_of(const PlateShape& shape, const PlateFit& fit, const Pl
     return 0.5 * (covariance + covariance.transpose());
 }
 
-}  // namespace
+Eigen::Vector2d wall_seen(const PlateShape& shape) {
+    return shape.thickness() * Eigen::Vector2d(kWallLevelShare, kWallUprightShare);
+}
 
-bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
-               const PlatePlacement& placement, PlateFit& fit) {
+/// Where a fit starts: at a placement, or from a state that is nearly it.
+struct PlateStart {
+    PlateState state;
+    bool settled = false;
+};
+
+bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
+              const PlateStart& start, PlateFit& fit) {
     const PlateShape& shape = target.holes;
     PlatePriors priors;
     priors.shift_level_sigma = beam.shift_level_sigma;
     priors.shift_upright_sigma = beam.shift_upright_sigma;
-    priors.wall = shape.thickness() * Eigen::Vector2d(kWallLevelShare, kWallUprightShare);
+    priors.wall = wall_seen(shape);
     priors.wall_sigma.setConstant(std::max(kWallShareSigma * shape.thickness(), 1e-5));
     const double margin = std::min(kPlateMargin, kMarginShare * shape.rim());
 
     PlateState& state = fit.state;
-    state = PlateState{};
-    state.T_lidar_middle = rays.T_lidar_plane *
-                           Eigen::Translation3d(placement.middle.x(), placement.middle.y(), 0.0) *
-                           Eigen::AngleAxisd(placement.angle, Eigen::Vector3d::UnitZ());
-    state.log_width.setConstant(std::log(kFirstWidth));
-    state.wall = priors.wall;
+    state = start.state;
 
     const auto take_plane = [&] {
         replace_plane(rays, state.T_lidar_middle);
@@ -212,8 +215,10 @@ bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle ray
         mask_of({kRhoX, kRhoY, kPhiZ, kShiftLevel, kShiftUpright, kWidthLevel, kWidthUpright});
     take_plane();
     const std::size_t stride = rays.rays.size() / kFirstRays + 1;
-    if (!settle(stride) || !climb(shape, priors, fit.zone, first, kFirstSteps, state)) return false;
-    for (int round = 0; round < kRounds; ++round) {
+    if (!start.settled &&
+        (!settle(stride) || !climb(shape, priors, fit.zone, first, kFirstSteps, state)))
+        return false;
+    for (int round = start.settled ? kRounds - 1 : 0; round < kRounds; ++round) {
         // A first plane that is far off cuts away some of the plate's own points.
         for (int turn = 0; turn < kTurns; ++turn) {
             if (!turn_into_plate(target.all, rays, margin, state.T_lidar_middle)) return false;
@@ -249,6 +254,24 @@ bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle ray
     }
     fit.rays = std::move(rays);
     return true;
+}
+
+}  // namespace
+
+bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
+               const PlatePlacement& placement, PlateFit& fit) {
+    PlateStart start;
+    start.state.T_lidar_middle =
+        rays.T_lidar_plane * Eigen::Translation3d(placement.middle.x(), placement.middle.y(), 0.0) *
+        Eigen::AngleAxisd(placement.angle, Eigen::Vector3d::UnitZ());
+    start.state.log_width.setConstant(std::log(kFirstWidth));
+    start.state.wall = wall_seen(target.holes);
+    return fit_from(target, beam, std::move(rays), start, fit);
+}
+
+bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
+               const PlateState& start, PlateFit& fit) {
+    return fit_from(target, beam, std::move(rays), {start, true}, fit);
 }
 
 }  // namespace petal

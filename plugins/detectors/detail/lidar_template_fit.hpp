@@ -49,5 +49,8 @@ struct PlateBeam {
 /// Fits the target to the rays around a placement. False where they do not fix it.
 bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
                const PlatePlacement& placement, PlateFit& fit);
+/// The same from the state that a fit to some of these rays found.
+bool fit_plate(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays,
+               const PlateState& start, PlateFit& fit);
 
 }  // namespace petal

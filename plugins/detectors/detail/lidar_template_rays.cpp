@@ -4,6 +4,7 @@
 #include "detectors/detail/lidar_template_rays.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,41 @@ constexpr double kLeastHitSigmas = 1.5;    ///< ... or fewer, where something is
 constexpr double kNearestShare = 0.1;      ///< of the misses: the nearest surface behind
 constexpr std::size_t kRaysLeastPoints = 30;
 constexpr int kPlaneFits = 4;
+constexpr std::size_t kRaysPiece = 4096;
+
+/// Indices of the points p whose rays cross the plane n.x = h within the radius of its origin o:
+///     |h / (n.p) p - o|^2 <= radius^2, multiplied by (n.p)^2.
+/// Pass by pass over pieces that stay in the cache, so that the compiler can take several points at
+/// once: every plate goes over the whole cloud.
+std::vector<std::uint32_t> crossing_rays(const mrpt::maps::CPointsMapXYZI& points,
+                                         const Eigen::Isometry3d& T_lidar_plane, double radius) {
+    const Eigen::Vector3f n = T_lidar_plane.linear().col(2).cast<float>();
+    const Eigen::Vector3f o = T_lidar_plane.translation().cast<float>();
+    const float h = n.dot(o), rest = o.squaredNorm() - static_cast<float>(radius * radius);
+    const float least = static_cast<float>(kRaysLeastSine * kRaysLeastSine);
+    const float* xs = points.getPointsBufferRef_x().data();
+    const float* ys = points.getPointsBufferRef_y().data();
+    const float* zs = points.getPointsBufferRef_z().data();
+    const std::size_t count = points.size();
+    std::vector<std::uint32_t> found;
+    std::array<std::uint8_t, kRaysPiece> crosses{};
+    for (std::size_t begin = 0; begin < count; begin += kRaysPiece) {
+        const std::size_t size = std::min(kRaysPiece, count - begin);
+        for (std::size_t k = 0; k < size; ++k) {
+            const float x = xs[begin + k], y = ys[begin + k], z = zs[begin + k];
+            const float deep = n.x() * x + n.y() * y + n.z() * z;
+            const float square = x * x + y * y + z * z;
+            const float along = o.x() * x + o.y() * y + o.z() * z;
+            const float off = h * (h * square - 2.0F * deep * along) + rest * deep * deep;
+            crosses[k] = static_cast<std::uint8_t>(static_cast<int>(deep > 0.0F) &
+                                                   static_cast<int>(off <= 0.0F) &
+                                                   static_cast<int>(deep * deep >= least * square));
+        }
+        for (std::size_t k = 0; k < size; ++k)
+            if (crosses[k] != 0) found.push_back(static_cast<std::uint32_t>(begin + k));
+    }
+    return found;
+}
 
 }  // namespace
 
@@ -29,24 +65,10 @@ RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane
     RayBundle bundle;
     bundle.radius = radius;
     bundle.T_lidar_plane = T_lidar_plane;
-    const Eigen::Vector3d into = T_lidar_plane.linear().col(2);
-    const Eigen::Vector3d origin = T_lidar_plane.translation();
-    const double distance = into.dot(origin);
+    const std::vector<std::uint32_t> crossing = crossing_rays(*cloud.points, T_lidar_plane, radius);
     const auto& xs = cloud.points->getPointsBufferRef_x();
     const auto& ys = cloud.points->getPointsBufferRef_y();
     const auto& zs = cloud.points->getPointsBufferRef_z();
-    const double limit = radius * radius;
-    std::vector<std::uint32_t> crossing;
-    for (std::size_t i = 0; i < xs.size(); ++i) {
-        const Eigen::Vector3d p(static_cast<double>(xs[i]), static_cast<double>(ys[i]),
-                                static_cast<double>(zs[i]));
-        const double deep = into.dot(p);
-        if (!(deep > 0.0)) continue;
-        const double scale = distance / deep;
-        if (!((scale * p - origin).squaredNorm() <= limit)) continue;
-        if (deep < kRaysLeastSine * p.norm()) continue;
-        crossing.push_back(static_cast<std::uint32_t>(i));
-    }
     bundle.crossed = crossing.size();
     const std::size_t stride = crossing.size() / std::max<std::size_t>(most, 1) + 1;
     bundle.rays.reserve(crossing.size() / stride + 1);
