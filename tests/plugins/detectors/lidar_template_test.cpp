@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "noise.hpp"
@@ -17,72 +20,19 @@
 #include "petal/calibration/se3.hpp"
 #include "petal/calibration/target.hpp"
 #include "petal/testing/stage_harness.hpp"
+#include "plugins/detectors/ray_world.hpp"
 
 namespace petal {
 namespace {
 
+using testing::facing_pose;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::normal;
+using testing::RayWorld;
 using ::testing::SizeIs;
 using testing::StageHarness;
 using testing::uniform;
-
-/// Rays of a LiDAR at the origin over a window of its view onto a board and, `gap` behind it, a
-/// wall (none: 0). Thin beams; the plate looks larger by `shift` on every side. Range noise 10 mm.
-struct RayWorld {
-    Eigen::Isometry3d T_lidar_board = Eigen::Isometry3d::Identity();
-    std::string target = "four_square_holes_500mm";
-    double gap = 0.4;
-    double shift = 0.0;
-    double scale = 1.0;  ///< of the board against its target file
-    int rays = 60000;
-    bool holes = true;
-
-    Cloud cast(Rng& rng) const {
-        const Target file = load_target(target);
-        const PlateTemplate plate(file);
-        auto map = mrpt::maps::CPointsMapXYZI::Create();
-        const Eigen::Isometry3d to_board = T_lidar_board.inverse();
-        const Eigen::Vector3d sensor = to_board.translation();
-        const Eigen::Vector3d middle =
-            T_lidar_board * Eigen::Vector3d(plate.all.middle().x(), plate.all.middle().y(), 0.0);
-        const double reach = 2.0 * plate.all.radius() / middle.norm();
-        const Eigen::Vector3d ahead = middle.normalized();
-        const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(ahead).normalized();
-        for (int i = 0; i < rays; ++i) {
-            const Eigen::Vector3d ray = (ahead + uniform(rng, -reach, reach) * left +
-                                         uniform(rng, -reach, reach) * ahead.cross(left))
-                                            .normalized();
-            const Eigen::Vector3d on = to_board.linear() * ray;
-            double range = -sensor.z() / on.z();
-            const Eigen::Vector2d at = (sensor + range * on).head<2>() / scale - plate.all.middle();
-            const double inside = holes                      ? plate.all.edge(at).inside * scale
-                                  : plate.all.in_outline(at) ? 1.0
-                                                             : -plate.all.distance_to_outline(at);
-            if (inside + shift <= 0.0) {
-                if (!(gap > 0.0)) continue;
-                range += gap / on.z();
-            }
-            const Eigen::Vector3d p = (range + normal(rng, 0.010)) * ray;
-            map->insertPoint(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                             static_cast<float>(p.z()));
-        }
-        Cloud cloud;
-        cloud.points = map;
-        return cloud;
-    }
-};
-
-Eigen::Isometry3d facing_pose(double distance, double yaw, double pitch, double roll,
-                              double width = 0.5, double height = 0.5) {
-    const Eigen::Vector3d normal = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
-                                   Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-                                   Eigen::Vector3d(-1.0, 0.0, 0.0);
-    return plane_frame(normal, {distance, 0.3, -0.2}) *
-           Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) *
-           Eigen::Translation3d(-width / 2.0, -height / 2.0, 0.0);
-}
 
 StageHarness found_in(const Cloud& cloud, const std::string& target = "four_square_holes_500mm") {
     auto stage = StageHarness::of<LidarTemplate>();
@@ -141,6 +91,36 @@ TEST(LidarTemplate, FindsABoardAtAnyDistanceAndAngle) {
             plane_frame(-board->T_lidar_board.linear().col(2), board->T_lidar_board.translation());
         EXPECT_GT(seen.linear().col(0).dot(board->T_lidar_board.linear().col(0)), 0.7) << what;
     }
+}
+
+/// The shipped board's target file, but as thin as foil.
+std::string thin_target() {
+    std::ifstream shipped(find_target_file("four_square_holes_500mm"));
+    std::string text(std::istreambuf_iterator<char>(shipped), {});
+    const std::string thickness = "\"thickness\": 0.005";
+    text.replace(text.find(thickness), thickness.size(), "\"thickness\": 0.0");
+    const std::string file = ::testing::TempDir() + "lidar_template_thin_target.json";
+    std::ofstream(file) << text;
+    return file;
+}
+
+// At 45 deg a wall of 5 mm stands 5 mm into the hole, from one side: its middle seems 2.5 mm off.
+// The model takes 0.85 of a level wall, so 0.4 mm remain, and 0.1 mm of noise.
+TEST(LidarTemplate, WallsOfTheHolesDoNotMoveABoardThatIsSeenObliquely) {
+    RayWorld world;
+    world.walls = 0.005;
+    world.T_lidar_board = facing_pose(3.0, 45.0 / kDegrees, 0.0, 0.0);
+    const Eigen::Vector3d middle(0.25, 0.25, 0.0);
+    const auto off = [&](const std::string& target) {
+        Rng rng(8);
+        auto stage = found_in(world.cast(rng), target);
+        const auto& boards = stage.out<LidarBoards>("boards").boards;
+        EXPECT_THAT(boards, SizeIs(1));
+        if (boards.size() != 1) return -1.0;
+        return (boards[0].T_lidar_board * middle - world.T_lidar_board * middle).norm();
+    };
+    EXPECT_LT(off(world.target), 0.001);
+    EXPECT_NEAR(off(thin_target()), 0.0025, 0.0007);
 }
 
 // Only hits exist: the density of rays must tell the edges. 0.3 mm of Poisson noise, so 1.5 mm.
@@ -285,12 +265,17 @@ TEST(LidarTemplate, TheGradientIsThatOfTheLikelihood) {
         rays.rays.push_back({p, on});
         if (i % 3 == 0) rays.silent.push_back({p, uniform(rng, 0.0, 1.0), on});
     }
-    const PlateEvaluation at = evaluate_plate(plate.holes, state, priors, rays, PlateScores::left_out);
+    const PlateEvaluation at =
+        evaluate_plate(plate.holes, state, priors, rays, PlateScores::left_out);
     for (int k = 0; k < kPlateParameters; ++k) {
         PlateVector step = PlateVector::Zero();
         step(k) = 1e-6;
-        const double up = evaluate_plate(plate.holes, moved(state, step), priors, rays, PlateScores::left_out).value;
-        const double down = evaluate_plate(plate.holes, moved(state, -step), priors, rays, PlateScores::left_out).value;
+        const double up =
+            evaluate_plate(plate.holes, moved(state, step), priors, rays, PlateScores::left_out)
+                .value;
+        const double down =
+            evaluate_plate(plate.holes, moved(state, -step), priors, rays, PlateScores::left_out)
+                .value;
         // A turn also turns the beam's axes on the board, which the gradient leaves out.
         const double tolerance = k >= kPhiX && k <= kPhiZ ? 0.35 : 0.02;
         EXPECT_NEAR(at.gradient(k), (up - down) / 2e-6, tolerance * std::abs(at.gradient(k)) + 1.0)
