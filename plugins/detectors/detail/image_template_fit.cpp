@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -28,6 +27,8 @@ constexpr double kInsetSigma = 5e-4;  ///< m: how holes are cut
 constexpr double kFarOff = 0.12;
 constexpr double kPriorSides = 2.0;  ///< `tolerance` counts as so many sides
 constexpr double kCauchy = 2.4;
+constexpr double kSettled = 0.05;  ///< of a sigma
+constexpr int kMostPasses = 12;
 
 double median_value(std::vector<double> values) {
     if (values.empty()) return 0.0;
@@ -105,16 +106,22 @@ FittedBoard TemplateFit::fine(const FittedBoard& coarse) const {
     board.pose = coarse.pose;
     board.shifts = coarse.shifts;
     board.plate_grey = plate_grey(coarse.pose);
-    const std::array<EdgeReach, 4> reaches{{{0.15, 2.0, 5.0, 12, true},
-                                            {0.12, 1.5, 3.0, 40, true},
-                                            {0.12, 1.5, 3.0, 40, true},
-                                            {0.12, 1.5, 3.0, 80, true}}};
-    for (const EdgeReach& reach : reaches) {
+    const EdgeReach wide{0.15, 2.0, 5.0, 12, true}, narrow{0.12, 1.5, 3.0, 40, true},
+        last{0.12, 1.5, 3.0, 80, true};
+    const auto pass = [&](const EdgeReach& reach) {
         board.samples = sample_edges(edges_, model_, camera_, board.pose, board.shifts, reach);
-        if (!solve(board, kSamplesShare, 8)) return board;
-    }
-    board.samples = sample_edges(edges_, model_, camera_, board.pose, board.shifts, reaches.back());
-    count(board, reaches.back());
+        return solve(board, kSamplesShare, 8);
+    };
+    if (!pass(wide)) return board;
+    // Where walls show, a shift of the board, smaller holes and brighter walls look much alike, and
+    // sides get their weights back slowly on the way from one to the other.
+    int passes = 0;
+    do {
+        if (!pass(narrow)) return board;
+    } while (board.last_step > kSettled && ++passes < kMostPasses);
+    if (!pass(last)) return board;
+    board.samples = sample_edges(edges_, model_, camera_, board.pose, board.shifts, last);
+    count(board, last);
     board.converged = true;
     return board;
 }
@@ -237,6 +244,8 @@ bool TemplateFit::solve(FittedBoard& board, double pixels_share, int rounds) con
     for (std::size_t s = 0; s < effects.size(); ++s)
         board.sides[s].measured = effects[s].samples > 0 && effects[s].widened < 2.0;
     board.covariance = information.inverse().topLeftCorner<6, 6>();
+    const Eigen::Matrix<double, 6, 1> step = solution.head<6>();
+    board.last_step = std::sqrt(std::max(0.0, step.dot(board.covariance.llt().solve(step))));
     board.pose.step(model_, solution.head<6>());
     const Eigen::Isometry3d& pose = board.pose.T_camera_board;
     const double towards = pose.linear().col(2).dot(pose.translation().normalized());

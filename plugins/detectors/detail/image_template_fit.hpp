@@ -53,6 +53,7 @@ struct FittedBoard {
     double sample_sigma_px = 0.0;  ///< of an ordinary edge point about its side
     double hole_scatter = 0.0;     ///< m, 1 sigma: of the holes' sides about the pose
     double outline_scatter = 0.0;  ///< m
+    double last_step = 0.0;        ///< of the pose, in its own sigmas
     bool converged = false;
 };
 
