@@ -13,6 +13,9 @@ import sys
 
 
 def interval(figure, sign=""):
+    if figure is None:
+        return "none"
+
     def text(value):
         return value if isinstance(value, str) else f"{value:{sign}.3g}"
     return f"{text(figure['value'])} [{text(figure['low'])}, {text(figure['high'])}]"
