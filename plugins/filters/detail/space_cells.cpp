@@ -5,7 +5,6 @@
 #include "petal/calibration/for_pieces.hpp"
 
 #include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,9 +46,7 @@ SpaceCells::SpaceCells(const Cloud& cloud, const std::vector<std::uint32_t>& ind
         }
     });
     // No two are equal, as the indices differ: any sort gives the same order.
-    tbb::task_arena(run.threads()).execute([&] {
-        tbb::parallel_sort(placed.begin(), placed.end(), earlier);
-    });
+    on_run_threads(run, [&] { tbb::parallel_sort(placed.begin(), placed.end(), earlier); });
     for (std::size_t k = 0; k < placed.size(); ++k)
         if (k == 0 || placed[k].place != placed[k - 1].place)
             cells_.push_back({placed[k].place, static_cast<std::uint32_t>(k)});

@@ -4,12 +4,12 @@
 #include "simulation/lidar/lidar_simulation.hpp"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "petal/calibration/for_pieces.hpp"
 #include "simulation/lidar/echo.hpp"
 #include "simulation/lidar/footprint.hpp"
 #include "simulation/lidar/pointing.hpp"
@@ -158,8 +158,7 @@ std::vector<LidarMessage> simulate_lidar(const World& world, const LidarDevice& 
     // The motors ran before the capture: another seed is another part of the pattern.
     Engine starter(mix(seed, 0));
     const ScanPattern pattern(profile, uniform(starter, 0.0, kLongestStart));
-    tbb::task_arena arena(run.threads());
-    arena.execute([&] {
+    on_run_threads(run, [&] {
         tbb::parallel_for(std::size_t{0}, messages.size(), [&](std::size_t i) {
             if (run.cancelled()) return;
             LidarMessage& message = messages[i];
