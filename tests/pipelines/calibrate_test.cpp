@@ -78,6 +78,14 @@ TEST_F(Calibrate, OneFlatBoardIsNoCalibration) {
     EXPECT_THAT(result["reasons"].dump(), HasSubstr("one board looks the same"));
 }
 
+// Before the sky, above its pole: a fit to some of the rays ends in another minimum here.
+TEST_F(Calibrate, ABoardOnAPoleBeforeTheSkyIsFound) {
+    const json result = calibrated("open_field", 10.0, 4, "--seed 2");
+    ASSERT_EQ(result["scenes"].size(), 1u);
+    EXPECT_FALSE(result["scenes"][0]["boards"][0]["corners_lidar"].is_null());
+    EXPECT_LT(result["metrics"]["truth.drift_px"].get<double>(), 1.0);
+}
+
 TEST_F(Calibrate, OnlyTheStillPartOfACaptureIsUsedWhereAskedFor) {
     std::ofstream(folder_ / "kicked.json")
         << json{{"petal_scene", 1},

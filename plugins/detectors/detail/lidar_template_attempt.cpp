@@ -47,11 +47,11 @@ void keep_places(const RayBundle& rays, PlateAttempt& attempt) {
 /// target of other measures is told by all rays.
 PlateLimits loosened(const PlateLimits& limits) {
     PlateLimits loose;
-    loose.min_gain = 0.8 * limits.min_gain;
-    loose.min_open = 0.8 * limits.min_open;
-    loose.min_outline = 0.8 * limits.min_outline;
-    loose.max_flatness = 1.5 * limits.max_flatness;
-    loose.max_shift = 1.5 * limits.max_shift;
+    loose.min_gain = 0.6 * limits.min_gain;
+    loose.min_open = 0.6 * limits.min_open;
+    loose.min_outline = 0.6 * limits.min_outline;
+    loose.max_flatness = 3.0 * limits.max_flatness;
+    loose.max_shift = 2.0 * limits.max_shift;
     loose.max_stretch = std::numeric_limits<double>::infinity();
     return loose;
 }
@@ -63,25 +63,35 @@ struct JudgedFit {
     PlateVerdict verdict;
 };
 
-/// None where the rays do not fix the target.
+/// None where the rays do not fix the target. What comes near a board with some of the rays is
+/// fitted to all: from there, and where that is no board (the draft may lie in another minimum)
+/// from the placement.
 std::optional<JudgedFit> fit_and_judge(const PlateTemplate& target, const PlateBeam& beam,
                                        const PlateLimits& limits, const Cloud& cloud,
                                        const RayBundle& some, const PlatePlacement& placement) {
-    JudgedFit made;
-    if (!fit_plate(target, beam, some, placement, made.fit)) return std::nullopt;
-    made.support = measure_support(target, made.fit);
-    if (some.crossed > some.rays.size() &&
-        judge_plate(target, loosened(limits), made.fit, made.support).board) {
-        JudgedFit whole;
-        if (!fit_plate(target, beam,
-                       gather_rays(cloud, made.fit.state.T_lidar_middle, reach_of(target)),
-                       made.fit.state, whole.fit))
-            return std::nullopt;
-        made.fit = std::move(whole.fit);
+    const auto judged = [&](JudgedFit made) {
         made.support = measure_support(target, made.fit);
+        made.verdict = judge_plate(target, limits, made.fit, made.support);
+        return made;
+    };
+    JudgedFit draft;
+    if (!fit_plate(target, beam, some, placement, draft.fit)) return std::nullopt;
+    draft = judged(std::move(draft));
+    if (some.crossed == some.rays.size() ||
+        !judge_plate(target, loosened(limits), draft.fit, draft.support).board)
+        return draft;
+    JudgedFit whole;
+    const PlateState& start = draft.fit.state;
+    if (fit_plate(target, beam, gather_rays(cloud, start.T_lidar_middle, reach_of(target)), start,
+                  whole.fit)) {
+        whole = judged(std::move(whole));
+        if (whole.verdict.board) return whole;
     }
-    made.verdict = judge_plate(target, limits, made.fit, made.support);
-    return made;
+    JudgedFit again;
+    if (!fit_plate(target, beam, gather_rays(cloud, some.T_lidar_plane, reach_of(target)),
+                   placement, again.fit))
+        return std::nullopt;
+    return judged(std::move(again));
 }
 
 }  // namespace
