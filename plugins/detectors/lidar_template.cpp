@@ -70,18 +70,19 @@ void LidarTemplate::run(Run& run) {
                                         plates.size(), search.cell_count()));
         if (plates.size() > static_cast<std::size_t>(p_.max_candidates))
             plates.resize(static_cast<std::size_t>(p_.max_candidates));
+        const CloudDirections directions(cloud);
         const PlatePlacer placer(target.all, reach_of(target));
         std::vector<PlacedPlate> placed(plates.size());
         for_pieces(run, plates.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                placed[i] = place_on_rays(target, placer, cloud, plates[i]);
+                placed[i] = place_on_rays(target, placer, directions, plates[i]);
         });
         std::stable_sort(placed.begin(), placed.end(),
                          [](const auto& a, const auto& b) { return a.score() > b.score(); });
         std::vector<Eigen::Vector3d> middles;
         for (const PlacedPlate& plate : placed) {
             poll();
-            attempts.push_back(try_rays(target, beam, p_, cloud, plate, middles, names));
+            attempts.push_back(try_rays(target, beam, p_, directions, plate, middles, names));
             if (attempts.back().board) middles.push_back(attempts.back().middle);
         }
     }

@@ -67,7 +67,7 @@ struct JudgedFit {
 /// fitted to all: from there, and where that is no board (the draft may lie in another minimum)
 /// from the placement.
 std::optional<JudgedFit> fit_and_judge(const PlateTemplate& target, const PlateBeam& beam,
-                                       const PlateLimits& limits, const Cloud& cloud,
+                                       const PlateLimits& limits, const CloudDirections& cloud,
                                        const RayBundle& some, const PlatePlacement& placement) {
     const auto judged = [&](JudgedFit made) {
         made.support = measure_support(target, made.fit);
@@ -124,13 +124,13 @@ LidarBoard board_at(const PlateTemplate& target, const Target& names,
 }
 
 PlacedPlate place_on_rays(const PlateTemplate& target, const PlatePlacer& placer,
-                          const Cloud& cloud, const PlateCandidate& plate) {
+                          const CloudDirections& cloud, const PlateCandidate& plate) {
     PlacedPlate placed;
     placed.plate = plate;
     placed.rays =
         gather_rays(cloud, plane_frame(plate.normal, plate.centre), reach_of(target), kDraftRays);
     if (fit_plane(placed.rays, kPlaneRadius * target.all.radius(), kPlaneDepth))
-        placed.placements = placer.place(placed.rays, kAttemptPlacements);
+        placed.placements = placer.place(placed.rays, kAttemptPlacements, kLeastScore);
     if (placed.score() < kLeastScore) {
         // Its rays are no longer needed, but for the picture.
         const std::size_t stride = placed.rays.rays.size() / kMostKept + 1;
@@ -143,7 +143,7 @@ PlacedPlate place_on_rays(const PlateTemplate& target, const PlatePlacer& placer
 }
 
 PlateAttempt try_rays(const PlateTemplate& target, const PlateBeam& beam, const PlateLimits& limits,
-                      const Cloud& cloud, const PlacedPlate& placed,
+                      const CloudDirections& cloud, const PlacedPlate& placed,
                       const std::vector<Eigen::Vector3d>& boards, const Target& names) {
     PlateAttempt attempt;
     attempt.plate = placed.plate;

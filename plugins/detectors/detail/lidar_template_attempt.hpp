@@ -49,13 +49,13 @@ struct PlacedPlate {
 double reach_of(const PlateTemplate& target);
 
 PlacedPlate place_on_rays(const PlateTemplate& target, const PlatePlacer& placer,
-                          const Cloud& cloud, const PlateCandidate& plate);
+                          const CloudDirections& cloud, const PlateCandidate& plate);
 
 /// Fits the target to the rays around a plate: to some of them first, and where that comes near a
 /// board to all of them. Where a placement overlaps one of the `boards` (their middles) found
 /// already it is left out.
 PlateAttempt try_rays(const PlateTemplate& target, const PlateBeam& beam, const PlateLimits& limits,
-                      const Cloud& cloud, const PlacedPlate& placed,
+                      const CloudDirections& cloud, const PlacedPlate& placed,
                       const std::vector<Eigen::Vector3d>& boards, const Target& names);
 
 /// Tries it on points of edges near a plane patch.

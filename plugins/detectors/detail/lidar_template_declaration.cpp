@@ -16,7 +16,7 @@ void LidarTemplate::describe(Spec<Params>& s) {
 2. **Placement.** Every ray that crosses the plate's plane is a hit (it returned there) or a miss (from beyond). In all turns that look different, hits and misses
    are correlated with plate, holes and what is around the outline.
 3. **Fit.** The probability of a hit is a logistic function of the distance to the template's edge. Place, turn, edge shifts along the
-   beam's two axes, the widths of the passage from hits to misses, and how much of the plate's thickness is seen in the holes, are estimated together; the plane is
+   beam's two axes, how they differ with the brightness behind the sides, the widths of the passage from hits to misses, and how much of the plate's thickness is seen in the holes, are estimated together; the plane is
    that of the plate's own points. Where nothing returns through a hole, the density of hits tells its edges. Of a target with holes only these are fitted: its rim may stand on the floor.
 
 The covariance of the pose (left perturbation; rho in m, phi in rad) is marginal over all of these, and holds an error that the rays of each side share, from how the sides scatter. A range bias

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "detectors/detail/lidar_template_background.hpp"
 #include "detectors/detail/lidar_template_silent.hpp"
 
 namespace petal {
@@ -18,6 +19,8 @@ constexpr int kFirstSteps = 12, kFitSteps = 20;
 constexpr int kRounds = 2;
 constexpr int kTurns = 3;
 constexpr double kBand = 0.035;  ///< m: rays farther off an edge tell nothing of its place
+/// Where edges are known: rays farther off than as many widths tell nothing, nor do they move more.
+constexpr double kBandWidths = 10.0, kBandMoves = 0.003;  ///< m
 constexpr std::size_t kFirstRays = 8000;
 constexpr double kFirstWidth = 0.008;   ///< m
 constexpr double kLeastGained = 0.003;  ///< of the log likelihood, in a step: 0.08 sigma
@@ -71,6 +74,7 @@ bool climb(const PlateShape& shape, const PlatePriors& priors, const ToldRays& r
             std::max({move.head<3>().cwiseAbs().maxCoeff() / 0.01,
                       move.segment<3>(kPhiX).cwiseAbs().maxCoeff() / 0.03,
                       move.segment<2>(kShiftLevel).cwiseAbs().maxCoeff() / 0.01,
+                      move.segment<2>(kGlareLevel).cwiseAbs().maxCoeff() / 0.01,
                       move.segment<2>(kWidthLevel).cwiseAbs().maxCoeff() / 0.7, 1.0});
         move /= most;
         PlateState next = moved(state, move);
@@ -109,18 +113,29 @@ double floor_of(const PlateShape& shape, const RayBundle& rays, double margin) {
     return std::clamp(wrong, kLeastFloor, kMostFloor);
 }
 
-/// Every `stride`-th ray near an edge, and how many there are farther off.
-void choose_rays(const PlateShape& shape, const RayBundle& bundle, std::size_t stride,
+/// How far from the template's edges rays tell of their place, once they are nearly known.
+double known_band(const PlateShape& shape, const PlateState& state) {
+    const Eigen::Vector3d sensor = state.T_lidar_middle.inverse().translation();
+    const double walls = shape.thickness() * sensor.head<2>().norm() / std::abs(sensor.z());
+    return std::min(kBand, kBandMoves + walls + state.shift.cwiseAbs().maxCoeff() +
+                               kBandWidths * std::exp(state.log_width.maxCoeff()));
+}
+
+/// Every `stride`-th ray within `band` of an edge, and how many there are farther off.
+void choose_rays(const PlateShape& shape, const RayBundle& bundle, std::size_t stride, double band,
                  ToldRays& zone) {
+    const std::vector<double> backgrounds = backgrounds_of(shape, bundle);
     zone.rays.clear();
     zone.right = zone.wrong = zone.far_hits = 0.0;
     std::size_t near = 0;
     for (const PlaneRay& ray : bundle.rays) {
         const Told told = bundle.told(ray);
         if (told == Told::nothing || !shape.in_zone(ray.place)) continue;
-        const int beyond = shape.beyond(ray.place, kBand);
+        const int beyond = shape.beyond(ray.place, band);
         if (beyond == 0) {
-            if (near++ % stride == 0) zone.rays.push_back({ray.point, told == Told::hit});
+            if (near++ % stride != 0) continue;
+            const auto side = static_cast<std::size_t>(shape.edge(ray.place).side);
+            zone.rays.push_back({ray.point, told == Told::hit, backgrounds[side]});
             continue;
         }
         ((beyond > 0) == (told == Told::hit) ? zone.right : zone.wrong) += 1.0;
@@ -203,20 +218,20 @@ bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays
             rays, [&](const auto& p) { return target.all.beyond(p, margin) > 0; },
             [&](const auto& p) { return target.all.beyond(p, margin) < 0; });
     };
-    const auto settle = [&](std::size_t stride) {
-        choose_rays(shape, rays, stride, fit.zone);
+    const auto settle = [&](std::size_t stride, double band) {
+        choose_rays(shape, rays, stride, band, fit.zone);
         fit.zone.floor = floor_of(shape, rays, margin);
         fit.density = add_silent(target, rays, margin, fit.zone);
         for (ToldRays::Silent& silent : fit.zone.silent) silent.rays /= static_cast<double>(stride);
         return fit.zone.rays.size() >= kLeastRays;
     };
     const Mask first = mask_of({kRhoX, kRhoY, kPhiZ, kShiftLevel, kShiftUpright});
-    const Mask full =
-        mask_of({kRhoX, kRhoY, kPhiZ, kShiftLevel, kShiftUpright, kWidthLevel, kWidthUpright});
+    const Mask full = mask_of({kRhoX, kRhoY, kPhiZ, kShiftLevel, kShiftUpright, kWidthLevel,
+                               kWidthUpright, kGlareLevel, kGlareUpright});
     take_plane();
     const std::size_t stride = rays.rays.size() / kFirstRays + 1;
     if (!start.settled &&
-        (!settle(stride) || !climb(shape, priors, fit.zone, first, kFirstSteps, state)))
+        (!settle(stride, kBand) || !climb(shape, priors, fit.zone, first, kFirstSteps, state)))
         return false;
     for (int round = start.settled ? kRounds - 1 : 0; round < kRounds; ++round) {
         // A first plane that is far off cuts away some of the plate's own points.
@@ -224,7 +239,8 @@ bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays
             if (!turn_into_plate(target.all, rays, margin, state.T_lidar_middle)) return false;
             take_plane();
         }
-        if (!settle(round + 1 < kRounds ? stride : 1) ||
+        const bool last = round + 1 == kRounds;
+        if (!settle(last ? 1 : stride, last ? known_band(shape, state) : kBand) ||
             !climb(shape, priors, fit.zone, full, kFitSteps, state))
             return false;
     }

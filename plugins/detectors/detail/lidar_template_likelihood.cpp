@@ -50,6 +50,7 @@ PlateState moved(const PlateState& state, const PlateVector& step) {
     next.log_width += step.segment<2>(kWidthLevel);
     next.wall += step.segment<2>(kWallLevel);
     next.stretch += step.segment<2>(kStretchX);
+    next.glare += step.segment<2>(kGlareLevel);
     return next;
 }
 
@@ -90,23 +91,28 @@ Eigen::Matrix2d beam_axes(const Eigen::Isometry3d& T_lidar_middle) {
 }
 
 SeenEdge see_edge(const PlateShape& shape, const PlateState& state, const Eigen::Matrix2d& axes,
-                  const Eigen::Vector2d& widths, const Crossing& crossing) {
+                  const Eigen::Vector2d& widths, const Crossing& crossing, double brightness) {
     const Eigen::Vector2d scale = (Eigen::Vector2d::Ones() + state.stretch).cwiseInverse();
+    const Eigen::Vector2d shift = state.shift - brightness * state.glare;
     SeenEdge seen;
+    seen.brightness = brightness;
     seen.place = crossing.place.cwiseProduct(scale);
     const auto width_of = [&](const Eigen::Vector2d& through) {
         return std::max(through.cwiseProduct(widths).norm(), kLeastWidth);
     };
     const auto sure = [&](double inside, const Eigen::Vector2d& inward) {
         const Eigen::Vector2d through = axes.transpose() * inward;
-        return (inside + through.cwiseAbs().dot(state.shift)) / width_of(through);
+        return (inside + through.cwiseAbs().dot(shift)) / width_of(through);
     };
     PlateShape::Edge edge = shape.edge_by(seen.place, sure);
     const double certain = sure(edge.inside, edge.inward);
-    if (state.wall.maxCoeff() > 0.0 &&
-        std::abs(certain) < kFar + state.wall.maxCoeff() / kLeastWidth) {
-        const Eigen::Matrix2d moves = axes * (axes.inverse() * crossing.slope).asDiagonal();
-        const Eigen::Vector2d behind = (crossing.place + moves * state.wall).cwiseProduct(scale);
+    const Eigen::Matrix2d moves = axes * (axes.inverse() * crossing.slope).asDiagonal();
+    const Eigen::Vector2d deeper = moves * state.wall;
+    // What is surely on the plate is so on the back too, and what is farther off than a wall
+    // reaches is not (axes may shrink widths on the board, but hardly by half).
+    const double reach = deeper.norm() / std::max(kLeastWidth, 0.5 * widths.minCoeff());
+    if (reach > 0.0 && certain < kFar && certain > -kFar - reach) {
+        const Eigen::Vector2d behind = (crossing.place + deeper).cwiseProduct(scale);
         const PlateShape::Edge back = shape.edge_by(behind, sure);
         if (sure(back.inside, back.inward) > certain) {
             edge = back;
@@ -118,7 +124,7 @@ SeenEdge see_edge(const PlateShape& shape, const PlateState& state, const Eigen:
     seen.inward = edge.inward;
     const Eigen::Vector2d through = axes.transpose() * edge.inward;
     seen.across = through.cwiseAbs();
-    seen.inside = edge.inside + seen.across.dot(state.shift);
+    seen.inside = edge.inside + seen.across.dot(shift);
     seen.width = width_of(through);
     return seen;
 }
@@ -127,6 +133,7 @@ PlateVector edge_jacobian(const SeenEdge& edge, const Crossing& crossing) {
     PlateVector jacobian = PlateVector::Zero();
     jacobian.head<6>() = crossing.jacobian().transpose() * edge.inward;
     jacobian.segment<2>(kShiftLevel) = edge.across;
+    jacobian.segment<2>(kGlareLevel) = -edge.brightness * edge.across;
     jacobian.segment<2>(kWallLevel) = edge.behind.transpose() * edge.inward;
     jacobian.segment<2>(kStretchX) = -edge.inward.cwiseProduct(edge.place);
     return jacobian;
@@ -149,9 +156,10 @@ class PlateSum {
           scores_(scores == PlateScores::gathered) {}
 
     /// `sign`: +1 a hit, -1 a miss, 0 a silent place of `count` rays.
-    void add(const Eigen::Vector3d& point, int sign, double count, PlateEvaluation& sum) const {
+    void add(const Eigen::Vector3d& point, int sign, double count, double brightness,
+             PlateEvaluation& sum) const {
         const Crossing crossing = cross_board(to_middle_, point);
-        const SeenEdge edge = see_edge(shape_, state_, axes_, widths_, crossing);
+        const SeenEdge edge = see_edge(shape_, state_, axes_, widths_, crossing, brightness);
         if (std::abs(edge.inside) > kFar * edge.width) {
             const bool on_plate = edge.inside > 0.0;
             if (sign == 0)
@@ -192,10 +200,10 @@ class PlateSum {
         PlateEvaluation sum;
         if (scores_) sum.sides.resize(shape_.side_count());
         for (std::size_t i = begin; i < std::min(end, rays.rays.size()); ++i)
-            add(rays.rays[i].point, rays.rays[i].hit ? 1 : -1, 1.0, sum);
+            add(rays.rays[i].point, rays.rays[i].hit ? 1 : -1, 1.0, rays.rays[i].brightness, sum);
         for (std::size_t i = std::max(begin, rays.rays.size()); i < end; ++i) {
             const ToldRays::Silent& silent = rays.silent[i - rays.rays.size()];
-            add(silent.point, 0, silent.rays, sum);
+            add(silent.point, 0, silent.rays, 0.0, sum);
         }
         return sum;
     }
@@ -253,6 +261,9 @@ PlateEvaluation evaluate_plate(const PlateShape& shape, const PlateState& state,
         add_prior(evaluation, kWallLevel + axis, state.wall(axis), priors.wall(axis),
                   priors.wall_sigma(axis));
         add_prior(evaluation, kStretchX + axis, state.stretch(axis), 0.0, priors.stretch_sigma);
+        // A factor e moves the edges by no more than they are moved at all.
+        add_prior(evaluation, kGlareLevel + axis, state.glare(axis), 0.0,
+                  axis == 0 ? priors.shift_level_sigma : priors.shift_upright_sigma);
     }
     return evaluation;
 }

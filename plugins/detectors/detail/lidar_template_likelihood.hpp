@@ -23,6 +23,10 @@ struct PlateState {
     /// m: how much of the plate's thickness the walls of the holes hide, seen obliquely, along the
     /// same axes.
     Eigen::Vector2d wall = Eigen::Vector2d::Zero();
+    /// m for each factor e, along the same axes: by how much less the plate looks larger where it
+    /// is brighter behind an edge than behind the others. A beam that is half on the plate tells
+    /// the stronger half.
+    Eigen::Vector2d glare = Eigen::Vector2d::Zero();
     /// Relative: how much farther apart the sides stand than the target's, in x and y. 0 but for
     /// the check of the target.
     Eigen::Vector2d stretch = Eigen::Vector2d::Zero();
@@ -45,6 +49,8 @@ enum PlateParameter : int {
     kWallUpright,
     kStretchX,
     kStretchY,
+    kGlareLevel,
+    kGlareUpright,
     kPlateParameters
 };
 using PlateVector = Eigen::Matrix<double, kPlateParameters, 1>;
@@ -87,9 +93,10 @@ struct SeenEdge {
     Eigen::Vector2d place;   ///< of the template: on the front, or behind a hole's wall
     /// Behind a hole's wall: how the place moves with each of PlateState::wall; else zero.
     Eigen::Matrix2d behind = Eigen::Matrix2d::Zero();
+    double brightness = 0.0;  ///< of what is behind this edge
 };
 SeenEdge see_edge(const PlateShape& shape, const PlateState& state, const Eigen::Matrix2d& axes,
-                  const Eigen::Vector2d& widths, const Crossing& crossing);
+                  const Eigen::Vector2d& widths, const Crossing& crossing, double brightness = 0.0);
 /// dinside / dparameters; zero for the widths.
 PlateVector edge_jacobian(const SeenEdge& edge, const Crossing& crossing);
 
@@ -98,6 +105,7 @@ struct ToldRays {
     struct Ray {
         Eigen::Vector3d point;  ///< LiDAR frame: its direction counts
         bool hit = false;
+        double brightness = 0.0;  ///< of what is behind the nearest edge: see backgrounds_of()
     };
     struct Silent {
         Eigen::Vector3d point;  ///< LiDAR frame, on the plane
@@ -129,12 +137,14 @@ struct PlateEvaluation {
 /// The logarithm of the likelihood of what the rays told:
 ///
 ///     P(hit) = e + (1 - 2 e) / (1 + exp(-D / w)),
-///     D = d(u) + |a_l . n| s_l + |a_u . n| s_u,   w^2 = (a_l . n)^2 w_l^2 + (a_u . n)^2 w_u^2,
-///     sum over hits log P + sum over misses log(1 - P) - sum over silent places rays P,
+///     D = d(u) + |a_l . n| (s_l - b g_l) + |a_u . n| (s_u - b g_u),   w^2 = (a_l . n)^2 w_l^2 +
+///     (a_u . n)^2 w_u^2, sum over hits log P + sum over misses log(1 - P) - sum over silent places
+///     rays P,
 ///
 /// d the distance of the crossing u to the template's edge (positive on the plate, of the front or
 /// behind a hole's wall the back face), n the edge's normal, a_l and a_u the beam's axes on the
-/// board. The last sum is what a Poisson process of known density says where nothing returns.
+/// board, b how bright it is behind the edge. The last sum is what a Poisson process of known
+/// density says where nothing returns.
 ///
 /// On the threads of the calling task, summed in the same order for any number of them.
 enum class PlateScores { left_out, gathered };

@@ -21,7 +21,13 @@ constexpr int kCellsInSide = 32;        ///< of the board's lesser side
 constexpr int kEdgeCellsInSide = 64;    ///< the same for points on edges
 constexpr double kRingShare = 0.1;      ///< of the lesser side: the ring around the outline
 constexpr double kPlacementStep = 3.5;  ///< deg, of the turns tried
-constexpr double kEdgeStep = 2.0;       ///< deg
+/// What has less than kCoarseShare of the score needed on a raster of half as many cells is not
+/// looked at more closely: of 1157 plates of simulated scenes all 112 with enough have 0.9 of it or
+/// more, and four fifths of the others less than 0.75.
+constexpr int kCoarseCellsInSide = 16;
+constexpr double kCoarseShare = 0.75;
+constexpr double kCoarseStep = 7.0;  ///< deg
+constexpr double kEdgeStep = 2.0;    ///< deg
 constexpr double kExpected = 3.0;    ///< rays: a cell that should hold more and holds none is empty
 constexpr double kSameTurn = 10.0;   ///< deg
 constexpr double kSamePlace = 0.08;  ///< of the lesser side
@@ -107,13 +113,12 @@ std::vector<PlatePlacement> correlate(const PlateShape& shape, const Raster& ras
     return best;
 }
 
-Raster plate_raster(const PlateShape& shape, double radius) {
-    return Raster(shape.least_side() / kCellsInSide, radius);
+Raster plate_raster(const PlateShape& shape, double radius, int cells) {
+    return Raster(shape.least_side() / cells, radius);
 }
 
-Raster kernel_raster(const PlateShape& shape) {
-    return Raster(shape.least_side() / kCellsInSide,
-                  shape.radius() + kRingShare * shape.least_side());
+Raster kernel_raster(const PlateShape& shape, int cells) {
+    return Raster(shape.least_side() / cells, shape.radius() + kRingShare * shape.least_side());
 }
 
 cv::Mat evidence_of(const RayBundle& bundle, const Raster& raster) {
@@ -150,11 +155,12 @@ cv::Mat evidence_of(const RayBundle& bundle, const Raster& raster) {
     return evidence;
 }
 
-}  // namespace
-
-PlatePlacer::PlatePlacer(const PlateShape& shape, double radius) : shape_(shape), radius_(radius) {
+/// What a plate's evidence is correlated with: plate +, holes -, a ring around the outline -, each
+/// kind with the same weight.
+std::vector<cv::Mat> plate_spectra(const PlateShape& shape, double radius, int cells,
+                                   double step_deg) {
     const double ring = kRingShare * shape.least_side();
-    const Raster small = kernel_raster(shape);
+    const Raster small = kernel_raster(shape, cells);
     const auto kernel_of = [&](double angle) {
         cv::Mat kernel = cv::Mat::zeros(small.size(), small.size(), CV_32F);
         const Eigen::Rotation2Dd to_board(-angle);
@@ -178,13 +184,27 @@ PlatePlacer::PlatePlacer(const PlateShape& shape, double radius) : shape_(shape)
                 static_cast<float>((kind == 0 ? 1.0 : -1.0) / (parts * counts[kind]));
         return kernel;
     };
-    spectra_ = kernel_spectra(shape, kPlacementStep, plate_raster(shape, radius), kernel_of);
+    return kernel_spectra(shape, step_deg, plate_raster(shape, radius, cells), kernel_of);
 }
 
-std::vector<PlatePlacement> PlatePlacer::place(const RayBundle& rays, std::size_t keep) const {
-    const Raster raster = plate_raster(shape_, radius_);
-    return correlate(shape_, raster, kernel_raster(shape_), evidence_of(rays, raster), spectra_,
-                     keep);
+}  // namespace
+
+PlatePlacer::PlatePlacer(const PlateShape& shape, double radius)
+    : shape_(shape),
+      radius_(radius),
+      coarse_(plate_spectra(shape, radius, kCoarseCellsInSide, kCoarseStep)),
+      fine_(plate_spectra(shape, radius, kCellsInSide, kPlacementStep)) {}
+
+std::vector<PlatePlacement> PlatePlacer::place(const RayBundle& rays, std::size_t keep,
+                                               double least) const {
+    const auto with = [&](int cells, const std::vector<cv::Mat>& spectra) {
+        const Raster raster = plate_raster(shape_, radius_, cells);
+        return correlate(shape_, raster, kernel_raster(shape_, cells), evidence_of(rays, raster),
+                         spectra, keep);
+    };
+    std::vector<PlatePlacement> coarse = with(kCoarseCellsInSide, coarse_);
+    if (coarse.empty() || coarse.front().score < kCoarseShare * least) return coarse;
+    return with(kCellsInSide, fine_);
 }
 
 std::vector<PlatePlacement> place_edges(const PlateShape& shape,

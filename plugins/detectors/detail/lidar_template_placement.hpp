@@ -29,13 +29,13 @@ class PlatePlacer {
    public:
     /// For rays within `radius` (m) of a place.
     PlatePlacer(const PlateShape& shape, double radius);
-    /// The best first, at most `keep`, no two alike.
-    std::vector<PlatePlacement> place(const RayBundle& rays, std::size_t keep) const;
+    /// The best first, at most `keep`, no two alike; coarsely where no score comes near `least`.
+    std::vector<PlatePlacement> place(const RayBundle& rays, std::size_t keep, double least) const;
 
    private:
     const PlateShape& shape_;
     double radius_;
-    std::vector<cv::Mat> spectra_;  ///< of the kernel of each turn
+    std::vector<cv::Mat> coarse_, fine_;  ///< of the kernel of each turn
 };
 
 /// The same for points on edges alone: correlates them with the sides.

@@ -4,11 +4,11 @@
 #include "detectors/detail/lidar_template_rays.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 
+#include "petal/calibration/angles.hpp"
 #include "petal/calibration/plane_fit.hpp"
 
 namespace petal {
@@ -22,14 +22,48 @@ constexpr double kLeastHitSigmas = 1.5;    ///< ... or fewer, where something is
 constexpr double kNearestShare = 0.1;      ///< of the misses: the nearest surface behind
 constexpr std::size_t kRaysLeastPoints = 30;
 constexpr int kPlaneFits = 4;
-constexpr std::size_t kRaysPiece = 4096;
+constexpr std::size_t kLookAtShare = 3;
+constexpr double kLeastIntensity = 1e-3;  ///< of 1
+
+/// Points in directions that may cross a circle, of which those between `begin` and `end` come from
+/// one tile.
+struct NearRays {
+    Eigen::Vector3d axis;
+    double angle = 0.0;  ///< rad
+
+    NearRays(const Eigen::Vector3d& middle, double radius) {
+        const double range = middle.norm();
+        axis = middle / range;
+        // The sphere around the middle holds the circle.
+        angle = radius < range ? std::asin(radius / range) : kPi;
+    }
+    std::size_t count(const CloudDirections& directions) const {
+        std::size_t sum = 0;
+        directions.around(axis, angle, [&](const auto* begin, const auto* end) {
+            sum += static_cast<std::size_t>(end - begin);
+        });
+        return sum;
+    }
+    /// Calls visit(index) for every `stride`-th.
+    template <class Visit>
+    void each(const CloudDirections& directions, std::size_t stride, const Visit& visit) const {
+        std::size_t skip = 0;
+        directions.around(axis, angle, [&](const std::uint32_t* begin, const std::uint32_t* end) {
+            const auto size = static_cast<std::size_t>(end - begin);
+            std::size_t k = skip;
+            for (; k < size; k += stride) visit(begin[k]);
+            skip = k - size;
+        });
+    }
+};
 
 /// Indices of the points p whose rays cross the plane n.x = h within the radius of its origin o:
-///     |h / (n.p) p - o|^2 <= radius^2, multiplied by (n.p)^2.
-/// Pass by pass over pieces that stay in the cache, so that the compiler can take several points at
-/// once: every plate goes over the whole cloud.
-std::vector<std::uint32_t> crossing_rays(const mrpt::maps::CPointsMapXYZI& points,
-                                         const Eigen::Isometry3d& T_lidar_plane, double radius) {
+///     |h / (n.p) p - o|^2 <= radius^2, multiplied by (n.p)^2;
+/// of every `stride`-th point there.
+std::vector<std::uint32_t> crossing_rays(const CloudDirections& directions, const NearRays& near,
+                                         std::size_t stride, const Eigen::Isometry3d& T_lidar_plane,
+                                         double radius) {
+    const mrpt::maps::CPointsMapXYZI& points = *directions.cloud().points;
     const Eigen::Vector3f n = T_lidar_plane.linear().col(2).cast<float>();
     const Eigen::Vector3f o = T_lidar_plane.translation().cast<float>();
     const float h = n.dot(o), rest = o.squaredNorm() - static_cast<float>(radius * radius);
@@ -37,47 +71,47 @@ std::vector<std::uint32_t> crossing_rays(const mrpt::maps::CPointsMapXYZI& point
     const float* xs = points.getPointsBufferRef_x().data();
     const float* ys = points.getPointsBufferRef_y().data();
     const float* zs = points.getPointsBufferRef_z().data();
-    const std::size_t count = points.size();
     std::vector<std::uint32_t> found;
-    std::array<std::uint8_t, kRaysPiece> crosses{};
-    for (std::size_t begin = 0; begin < count; begin += kRaysPiece) {
-        const std::size_t size = std::min(kRaysPiece, count - begin);
-        for (std::size_t k = 0; k < size; ++k) {
-            const float x = xs[begin + k], y = ys[begin + k], z = zs[begin + k];
-            const float deep = n.x() * x + n.y() * y + n.z() * z;
-            const float square = x * x + y * y + z * z;
-            const float along = o.x() * x + o.y() * y + o.z() * z;
-            const float off = h * (h * square - 2.0F * deep * along) + rest * deep * deep;
-            crosses[k] = static_cast<std::uint8_t>(static_cast<int>(deep > 0.0F) &
-                                                   static_cast<int>(off <= 0.0F) &
-                                                   static_cast<int>(deep * deep >= least * square));
-        }
-        for (std::size_t k = 0; k < size; ++k)
-            if (crosses[k] != 0) found.push_back(static_cast<std::uint32_t>(begin + k));
-    }
+    near.each(directions, stride, [&](std::uint32_t i) {
+        const float x = xs[i], y = ys[i], z = zs[i];
+        const float deep = n.x() * x + n.y() * y + n.z() * z;
+        const float square = x * x + y * y + z * z;
+        const float along = o.x() * x + o.y() * y + o.z() * z;
+        const float off = h * (h * square - 2.0F * deep * along) + rest * deep * deep;
+        if (deep > 0.0F && off <= 0.0F && deep * deep >= least * square) found.push_back(i);
+    });
     return found;
 }
 
 }  // namespace
 
-RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane, double radius,
-                      std::size_t most) {
+RayBundle gather_rays(const CloudDirections& directions, const Eigen::Isometry3d& T_lidar_plane,
+                      double radius, std::size_t most) {
+    const Cloud& cloud = directions.cloud();
     RayBundle bundle;
     bundle.radius = radius;
     bundle.T_lidar_plane = T_lidar_plane;
-    const std::vector<std::uint32_t> crossing = crossing_rays(*cloud.points, T_lidar_plane, radius);
+    // Of many rays only as many are looked at as hold `most`, were a third of them to cross.
+    const NearRays near(T_lidar_plane.translation(), radius);
+    const std::size_t look = near.count(directions) / kLookAtShare / most + 1;
+    const std::vector<std::uint32_t> crossing =
+        crossing_rays(directions, near, look, T_lidar_plane, radius);
     const auto& xs = cloud.points->getPointsBufferRef_x();
     const auto& ys = cloud.points->getPointsBufferRef_y();
     const auto& zs = cloud.points->getPointsBufferRef_z();
-    bundle.crossed = crossing.size();
-    const std::size_t stride = crossing.size() / std::max<std::size_t>(most, 1) + 1;
+    const auto& intensities = cloud.points->getPointsBufferRef_intensity();
+    bundle.crossed = look * crossing.size();
+    const std::size_t stride = crossing.size() / most + 1;
     bundle.rays.reserve(crossing.size() / stride + 1);
     for (std::size_t k = 0; k < crossing.size(); k += stride) {
         const std::size_t i = crossing[k];
-        bundle.rays.push_back(
-            {{static_cast<double>(xs[i]), static_cast<double>(ys[i]), static_cast<double>(zs[i])},
-             {0.0, 0.0},
-             0.0});
+        PlaneRay ray;
+        ray.point = {static_cast<double>(xs[i]), static_cast<double>(ys[i]),
+                     static_cast<double>(zs[i])};
+        // What is no number comes second in std::max, so that it loses.
+        ray.log_energy = std::log(std::max(kLeastIntensity, static_cast<double>(intensities[i])) /
+                                  ray.point.squaredNorm());
+        bundle.rays.push_back(ray);
     }
     replace_plane(bundle, T_lidar_plane);
     return bundle;

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "petal/calibration/cloud.hpp"
+#include "detectors/detail/cloud_directions.hpp"
 
 namespace petal {
 
@@ -19,7 +19,8 @@ struct PlaneRay {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< what returned, m, LiDAR frame
     Eigen::Vector2d place =
         Eigen::Vector2d::Zero();  ///< where the ray crosses the plane, in the plane's frame
-    double beyond = 0.0;  ///< m along the ray from the plane to the point; negative: before it
+    double beyond = 0.0;      ///< m along the ray from the plane to the point; negative: before it
+    double log_energy = 0.0;  ///< logarithm of its intensity over its squared range
 };
 
 /// What a ray tells of the plate.
@@ -41,10 +42,10 @@ struct RayBundle {
     }
 };
 
-/// Gathers them, evenly thinned to about `most` at least: one pass over the cloud. Rays that cross
-/// flatter than 6 deg show no place.
-RayBundle gather_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_plane, double radius,
-                      std::size_t most = std::numeric_limits<std::size_t>::max());
+/// Gathers them by their direction; of more than `most` about `most` to half as many, evenly. Rays
+/// that cross flatter than 6 deg show no place.
+RayBundle gather_rays(const CloudDirections& directions, const Eigen::Isometry3d& T_lidar_plane,
+                      double radius, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// The same rays with another plane.
 void replace_plane(RayBundle& rays, const Eigen::Isometry3d& T_lidar_plane);

@@ -69,7 +69,7 @@ TEST_P(PlateShapes, ATargetIsPlacedWhereItsRaysAre) {
             ray.beyond = shape.on_plate(p) ? 0.0 : 1.0;
             bundle.rays.push_back(ray);
         }
-    const auto placements = PlatePlacer(shape, radius).place(bundle, 1);
+    const auto placements = PlatePlacer(shape, radius).place(bundle, 1, 0.4);
     ASSERT_EQ(placements.size(), 1u);
     // Cells are 1/32 of the lesser side, turns 3.5 deg apart.
     EXPECT_LT((placements[0].middle - middle).norm(), shape.least_side() / 32.0);

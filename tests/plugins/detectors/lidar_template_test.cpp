@@ -253,6 +253,7 @@ TEST(LidarTemplate, TheGradientIsThatOfTheLikelihood) {
     state.shift = {0.001, 0.004};
     state.log_width = {-6.1, -5.9};
     state.wall = {0.004, 0.001};
+    state.glare = {0.001, 0.002};
     PlatePriors priors;
     Rng rng(9);
     ToldRays rays;
@@ -262,7 +263,7 @@ TEST(LidarTemplate, TheGradientIsThatOfTheLikelihood) {
             Eigen::Vector3d(uniform(rng, -0.21, 0.21), uniform(rng, -0.21, 0.21), 0.0);
         const bool on = plate.holes.edge((state.T_lidar_middle.inverse() * p).head<2>()).inside >
                         uniform(rng, 0.0, 0.004);
-        rays.rays.push_back({p, on});
+        rays.rays.push_back({p, on, uniform(rng, -1.0, 1.0)});
         if (i % 3 == 0) rays.silent.push_back({p, uniform(rng, 0.0, 1.0), on});
     }
     const PlateEvaluation at =

@@ -6,6 +6,8 @@
 #include <mrpt/maps/CPointsMapXYZI.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "detectors/detail/lidar_template_fit.hpp"
@@ -25,6 +27,11 @@ struct RayWorld {
     double shift = 0.0;
     double scale = 1.0;  ///< of the board against its target file
     double walls = 0.0;  ///< m: how deep the holes are
+    /// Behind what lies lower on the board than this (m from its middle, down) it is `darkness`
+    /// times the factor e darker; there the plate looks larger by `glare` for each of them.
+    double dark_from = std::numeric_limits<double>::infinity();
+    double darkness = 1.0, glare = 0.0;
+    bool intensities = true;
     int rays = 60000;
     bool holes = true;
 
@@ -50,13 +57,19 @@ struct RayWorld {
                                   : plate.all.in_outline(at) ? 1.0
                                                              : -plate.all.distance_to_outline(at);
             const Eigen::Vector2d deeper = at + walls / on.z() * on.head<2>();
-            if (inside + shift <= 0.0 && (walls == 0.0 || plate.all.edge(deeper).inside <= 0.0)) {
+            const bool dark = at.y() > dark_from;
+            const double larger = shift + (dark ? glare * darkness : 0.0);
+            double brightness = 0.5;
+            if (inside + larger <= 0.0 && (walls == 0.0 || plate.all.edge(deeper).inside <= 0.0)) {
                 if (!(gap > 0.0)) continue;
                 range += gap / on.z();
+                if (dark) brightness *= std::exp(-darkness);
             }
             const Eigen::Vector3d p = (range + normal(rng, 0.010)) * ray;
             map->insertPoint(static_cast<float>(p.x()), static_cast<float>(p.y()),
                              static_cast<float>(p.z()));
+            if (intensities)
+                map->setPointIntensity(map->size() - 1, static_cast<float>(brightness));
         }
         Cloud cloud;
         cloud.points = map;
