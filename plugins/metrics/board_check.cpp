@@ -90,7 +90,7 @@ void BoardCheck::run(Run& run) {
         run.check_cancelled();
         const std::string who = scene + ": board " + std::to_string(i + 1);
         const Target& target = targets_.find(boards[i].target, run);
-        const auto shape = board_shape(cloud, boards[i].T_lidar_board, target);
+        const auto shape = board_shape(run, cloud, boards[i].T_lidar_board, target);
         if (!shape) {
             run.note({"the shape of " + who, "too few raw points lie on it", "",
                       "wire the source's raw cloud; is the board where the detector puts it?"});
@@ -172,7 +172,7 @@ void BoardCheck::look_for_others(Run& run, Metrics& metrics) const {
         bool found = false;
         for (const LidarBoard& board : boards) found = found || board.target == target.name;
         if (found) continue;
-        for (const OtherPlate& plate : other_plates(run.in<Cloud>("cloud"), *planes, target)) {
+        for (const OtherPlate& plate : other_plates(run, run.in<Cloud>("cloud"), *planes, target)) {
             if (std::abs(plate.scale - 1.0) < kOtherSize) {
                 run.note(
                     {"boards '" + target.name + "' among the planes",

@@ -111,7 +111,7 @@ void StillnessMetric::look_at_points(Run& run, Metrics& metrics) {
         const std::string name = "board_" + std::to_string(i + 1);
         const std::string who = scene_name(run.frame()) + ": board " + std::to_string(i + 1);
         const Target& target = targets_.find(boards[i].target, run);
-        const auto poses = split_poses(cloud, splits, boards[i], target);
+        const auto poses = split_poses(run, cloud, splits, boards[i], target);
         const auto motion = board_motion(poses, 0.5 * target.width(), 0.5 * target.height(),
                                          p_.sigmas, p_.min_motion);
         if (!motion) {

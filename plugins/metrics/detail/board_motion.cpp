@@ -10,6 +10,7 @@
 #include "metrics/detail/plate_edges.hpp"
 #include "metrics/detail/plate_rays.hpp"
 #include "metrics/detail/shown_edges.hpp"
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/printed.hpp"
 
 namespace petal {
@@ -62,12 +63,31 @@ bool is_motion(const PairOfSplits& pair, double lever, double bound, double leas
     return false;
 }
 
-}  // namespace
-
-std::size_t TimeSplits::of(std::size_t point) const {
-    const auto behind = std::upper_bound(begins.begin() + 1, begins.end() - 1, point);
-    return static_cast<std::size_t>(behind - begins.begin()) - 1;
+/// The pose of a split from its plane and, where its edges tell, its shift; the lever (m) turns the
+/// floor of its sigma into one of rotations.
+SplitPose split_pose(const PlatePlane& plane, const std::optional<PlateShift>& shift,
+                     double lever) {
+    SplitPose pose;
+    // z = value + by_x x + by_y y: turning about x lifts y, about y it lowers x.
+    Eigen::Matrix<double, 6, 3> by_plane = Eigen::Matrix<double, 6, 3>::Zero();
+    by_plane(2, 0) = by_plane(3, 2) = 1.0;
+    by_plane(4, 1) = -1.0;
+    pose.value = by_plane * plane.value;
+    pose.covariance = by_plane * plane.covariance * by_plane.transpose();
+    if (shift) {
+        Eigen::Matrix<double, 6, 3> by_shift = Eigen::Matrix<double, 6, 3>::Zero();
+        by_shift(0, 0) = by_shift(1, 1) = by_shift(5, 2) = 1.0;
+        pose.value += by_shift * shift->value;
+        pose.covariance += by_shift * shift->covariance * by_shift.transpose();
+        pose.sideways = true;
+    }
+    const double floor = kFloorSigma * kFloorSigma;
+    pose.covariance.diagonal().head<3>().array() += floor;
+    pose.covariance.diagonal().tail<3>().array() += floor / (lever * lever);
+    return pose;
 }
+
+}  // namespace
 
 TimeSplits time_splits(const Cloud& cloud, double shortest, std::size_t most, std::string& why) {
     TimeSplits splits;
@@ -105,51 +125,45 @@ TimeSplits time_splits(const Cloud& cloud, double shortest, std::size_t most, st
     return splits;
 }
 
-std::vector<std::optional<SplitPose>> split_poses(const Cloud& cloud, const TimeSplits& splits,
-                                                  const LidarBoard& board, const Target& target) {
+std::vector<std::optional<SplitPose>> split_poses(const Run& run, const Cloud& cloud,
+                                                  const TimeSplits& splits, const LidarBoard& board,
+                                                  const Target& target) {
     std::vector<std::optional<SplitPose>> poses(splits.size());
     const PlateEdges edges(target);
     auto rays =
-        plate_rays(cloud, board.T_lidar_board, edges.width(), edges.height(), kMotionBorder);
+        plate_rays(run, cloud, board.T_lidar_board, edges.width(), edges.height(), kMotionBorder);
     const auto whole = plate_plane(rays, edges, kMotionFromEdge, kMotionPlaneDepth);
     if (!whole) return poses;
     flatten(rays, *whole, edges.middle());
     const double depth = std::clamp(3.5 * whole->rms, 0.01, 0.05);
 
-    std::vector<std::vector<PlateRay>> of_split(splits.size());
-    for (const PlateRay& ray : rays) of_split[splits.of(ray.point)].push_back(ray);
-    std::vector<std::optional<PlatePlane>> planes;
-    std::vector<std::vector<EdgeRay>> beside;
-    std::vector<EdgeRay> all;
-    for (auto& own : of_split) {
-        planes.push_back(plate_plane(own, edges, kMotionFromEdge, depth));
-        if (planes.back()) flatten(own, *planes.back(), edges.middle());
-        beside.push_back(edge_rays(own, edges, kMotionBand, depth));
-        if (planes.back()) all.insert(all.end(), beside.back().begin(), beside.back().end());
-    }
-    const auto shown = shown_edges(all, edges.edges().size());
-    const double lever = 0.5 * std::hypot(edges.width(), edges.height());
-    for (std::size_t k = 0; k < splits.size(); ++k) {
-        if (!planes[k]) continue;
-        SplitPose pose;
-        // z = value + by_x x + by_y y: turning about x lifts y, about y it lowers x.
-        Eigen::Matrix<double, 6, 3> by_plane = Eigen::Matrix<double, 6, 3>::Zero();
-        by_plane(2, 0) = by_plane(3, 2) = 1.0;
-        by_plane(4, 1) = -1.0;
-        pose.value = by_plane * planes[k]->value;
-        pose.covariance = by_plane * planes[k]->covariance * by_plane.transpose();
-        if (const auto shift = plate_shift(beside[k], shown, edges.middle())) {
-            Eigen::Matrix<double, 6, 3> by_shift = Eigen::Matrix<double, 6, 3>::Zero();
-            by_shift(0, 0) = by_shift(1, 1) = by_shift(5, 2) = 1.0;
-            pose.value += by_shift * shift->value;
-            pose.covariance += by_shift * shift->covariance * by_shift.transpose();
-            pose.sideways = true;
+    std::vector<std::optional<PlatePlane>> planes(splits.size());
+    std::vector<std::vector<EdgeRay>> beside(splits.size());
+    for_pieces(run, splits.size(), 1, [&](std::size_t k, std::size_t end) {
+        // Rays stand in the order of their points, as splits do.
+        const auto from = [&](std::size_t split) {
+            return std::partition_point(rays.begin(), rays.end(), [&](const PlateRay& ray) {
+                return ray.point < splits.begins[split];
+            });
+        };
+        for (; k < end; ++k) {
+            std::vector<PlateRay> own(from(k), from(k + 1));
+            planes[k] = plate_plane(own, edges, kMotionFromEdge, depth);
+            if (planes[k]) flatten(own, *planes[k], edges.middle());
+            beside[k] = edge_rays(own, edges, kMotionBand, depth);
         }
-        const double floor = kFloorSigma * kFloorSigma;
-        pose.covariance.diagonal().head<3>().array() += floor;
-        pose.covariance.diagonal().tail<3>().array() += floor / (lever * lever);
-        poses[k] = pose;
-    }
+    });
+    std::vector<EdgeRay> all;
+    for (std::size_t k = 0; k < splits.size(); ++k)
+        if (planes[k]) all.insert(all.end(), beside[k].begin(), beside[k].end());
+    const auto shown = shown_edges(run, all, edges.edges().size());
+    const double lever = 0.5 * std::hypot(edges.width(), edges.height());
+    for_pieces(run, splits.size(), 1, [&](std::size_t k, std::size_t end) {
+        for (; k < end; ++k)
+            if (planes[k])
+                poses[k] =
+                    split_pose(*planes[k], plate_shift(beside[k], shown, edges.middle()), lever);
+    });
     return poses;
 }
 

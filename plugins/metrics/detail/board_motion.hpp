@@ -14,6 +14,7 @@
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/se3.hpp"
 #include "petal/calibration/target.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -23,8 +24,6 @@ struct TimeSplits {
     std::vector<std::size_t> begins;  ///< index of the first point of each; one more: the end
 
     std::size_t size() const { return begins.empty() ? 0 : begins.size() - 1; }
-    /// The split of a point.
-    std::size_t of(std::size_t point) const;
 };
 
 /// Splits of at least `shortest` s, at most `most` of them, by the stamps of the LiDAR's messages.
@@ -40,9 +39,10 @@ struct SplitPose {
     bool sideways = false;  ///< x, y and the roll are known too
 };
 
-/// One a split; none where it holds too few points of the board.
-std::vector<std::optional<SplitPose>> split_poses(const Cloud& cloud, const TimeSplits& splits,
-                                                  const LidarBoard& board, const Target& target);
+/// One a split; none where it holds too few points of the board. \throws Cancelled
+std::vector<std::optional<SplitPose>> split_poses(const Run& run, const Cloud& cloud,
+                                                  const TimeSplits& splits, const LidarBoard& board,
+                                                  const Target& target);
 
 /// The largest motion between two splits.
 struct BoardMotion {

@@ -170,17 +170,19 @@ void measure_axis(int axis, const PlateEdges& edges,
 
 }  // namespace
 
-std::optional<BoardShape> board_shape(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_board,
+std::optional<BoardShape> board_shape(const Run& run, const Cloud& cloud,
+                                      const Eigen::Isometry3d& T_lidar_board,
                                       const Target& target) {
     const PlateEdges edges(target);
-    auto rays = plate_rays(cloud, T_lidar_board, edges.width(), edges.height(), kShapeBorder);
+    auto rays = plate_rays(run, cloud, T_lidar_board, edges.width(), edges.height(), kShapeBorder);
     const auto plane = plate_plane(rays, edges, kShapeFromEdge, kShapePlaneDepth);
     if (!plane || plane->count < kFewestPoints) return std::nullopt;
     flatten(rays, *plane, edges.middle());
     const double depth = std::clamp(3.5 * plane->rms, 0.01, 0.05);
     BoardShape shape;
     measure_surface(rays, edges, depth, shape);
-    const auto shown = shown_edges(edge_rays(rays, edges, kShapeBand, depth), edges.edges().size());
+    const auto shown =
+        shown_edges(run, edge_rays(rays, edges, kShapeBand, depth), edges.edges().size());
     measure_axis(0, edges, shown, shape.pitch_x, shape.width);
     measure_axis(1, edges, shown, shape.pitch_y, shape.height);
     return shape;

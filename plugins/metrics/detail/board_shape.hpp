@@ -9,6 +9,7 @@
 
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/target.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -33,7 +34,7 @@ struct BoardShape {
 };
 
 /// From the raw cloud and a board's pose. None where fewer than 200 points lie on the plate.
-std::optional<BoardShape> board_shape(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_board,
-                                      const Target& target);
+std::optional<BoardShape> board_shape(const Run& run, const Cloud& cloud,
+                                      const Eigen::Isometry3d& T_lidar_board, const Target& target);
 
 }  // namespace petal

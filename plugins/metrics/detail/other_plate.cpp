@@ -31,7 +31,8 @@ struct PlaneView {
     std::vector<PlateRay> rays;
 };
 
-std::optional<PlaneView> view_of(const Cloud& cloud, const Plane& plane, double reach) {
+std::optional<PlaneView> view_of(const Run& run, const Cloud& cloud, const Plane& plane,
+                                 double reach) {
     if (!plane.normal.allFinite() || !std::isfinite(plane.offset)) return std::nullopt;
     const auto& points = *plane.inliers.points;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -53,7 +54,7 @@ std::optional<PlaneView> view_of(const Cloud& cloud, const Plane& plane, double 
     view.T_lidar_view = plane_frame(plane.normal, middle);
     view.T_lidar_view.translation() -=
         view.T_lidar_view.linear() * Eigen::Vector3d(reach, reach, 0.0);
-    view.rays = plate_rays(cloud, view.T_lidar_view, view.size, view.size, 0.0);
+    view.rays = plate_rays(run, cloud, view.T_lidar_view, view.size, view.size, 0.0);
     return view;
 }
 
@@ -157,8 +158,9 @@ std::optional<OtherPlate> look(const PlaneView& view, const Target& target) {
 }
 
 /// The pattern was tried in steps of a per cent; the holes' sides tell the size to a few mm.
-void measure(OtherPlate& plate, const Cloud& cloud, const Target& target) {
-    if (const auto shape = board_shape(cloud, plate.T_lidar_board, scaled(target, plate.scale));
+void measure(OtherPlate& plate, const Run& run, const Cloud& cloud, const Target& target) {
+    if (const auto shape =
+            board_shape(run, cloud, plate.T_lidar_board, scaled(target, plate.scale));
         shape && shape->pitch_x && shape->pitch_y)
         plate.scale *= 1.0 + 0.5 * (shape->pitch_x->value + shape->pitch_y->value);
     plate.width = plate.scale * target.width();
@@ -167,16 +169,16 @@ void measure(OtherPlate& plate, const Cloud& cloud, const Target& target) {
 
 }  // namespace
 
-std::vector<OtherPlate> other_plates(const Cloud& cloud, const Planes& planes,
+std::vector<OtherPlate> other_plates(const Run& run, const Cloud& cloud, const Planes& planes,
                                      const Target& target) {
     std::vector<OtherPlate> plates;
     const double reach = kLargestScale * std::hypot(target.width(), target.height());
     for (const Plane& plane : planes.planes) {
-        const auto view = view_of(cloud, plane, reach);
+        const auto view = view_of(run, cloud, plane, reach);
         if (!view) continue;
         auto plate = look(*view, target);
         if (!plate) continue;
-        measure(*plate, cloud, target);
+        measure(*plate, run, cloud, target);
         const bool known = std::any_of(plates.begin(), plates.end(), [&](const OtherPlate& other) {
             return std::abs(other.range - plate->range) < 0.1 &&
                    std::abs(other.scale - plate->scale) < 0.05;

@@ -11,6 +11,7 @@
 #include "petal/calibration/cloud.hpp"
 #include "petal/calibration/planes.hpp"
 #include "petal/calibration/target.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -26,7 +27,7 @@ struct OtherPlate {
 /// Looks at the raw points around each plane for a plate of 0.6 to 1.6 times the target's size with
 /// the target's proportions and the target's holes in proportion. The best of each plane; plates
 /// found from several planes once.
-std::vector<OtherPlate> other_plates(const Cloud& cloud, const Planes& planes,
+std::vector<OtherPlate> other_plates(const Run& run, const Cloud& cloud, const Planes& planes,
                                      const Target& target);
 
 }  // namespace petal

@@ -33,6 +33,7 @@ std::size_t quarter_of(const Eigen::Vector2d& away) {
 PlateEdges::PlateEdges(const Target& target) : width_(target.width()), height_(target.height()) {
     add_ring(target.outline, false);
     for (const auto& hole : target.holes) add_ring(hole, true);
+    grid_ = PlateSideGrid(rings_);
     for (const Target::RoundHole& hole : target.round_holes) {
         rounds_.push_back({hole.centre, hole.radius, edges_.size()});
         for (const Eigen::Vector2d& away : quarters())
@@ -41,7 +42,7 @@ PlateEdges::PlateEdges(const Target& target) : width_(target.width()), height_(t
 }
 
 void PlateEdges::add_ring(std::vector<Eigen::Vector2d> corners, bool hole) {
-    Ring ring{std::move(corners), hole, edges_.size()};
+    PlateRing ring{std::move(corners), hole, edges_.size()};
     for (std::size_t i = 0; i < ring.corners.size(); ++i) {
         const Eigen::Vector2d& a = ring.corners[i];
         const Eigen::Vector2d& b = ring.corners[(i + 1) % ring.corners.size()];
@@ -60,20 +61,19 @@ std::optional<PlateEdges::Place> PlateEdges::near(const Eigen::Vector2d& p, doub
     std::optional<Place> best;
     double nearest = band;
     bool beside = false;
-    for (const Ring& ring : rings_)
-        for (std::size_t i = 0; i < ring.corners.size(); ++i) {
-            const Eigen::Vector2d& a = ring.corners[i];
-            const Eigen::Vector2d side = ring.corners[(i + 1) % ring.corners.size()] - a;
-            const double length = side.norm();
-            const double along = (p - a).dot(side) / length;
-            const Eigen::Vector2d foot = a + side * (std::clamp(along, 0.0, length) / length);
-            const double distance = (p - foot).norm();
-            if (distance >= nearest) continue;
-            nearest = distance;
-            beside = along >= from_corner && along <= length - from_corner;
-            const Edge& edge = edges_[ring.first_edge + i];
-            best = Place{ring.first_edge + i, edge.inward.dot(p - edge.middle), edge.inward};
-        }
+    for (const std::size_t i : grid_.at(p).sides) {
+        const PlateSide& side = grid_.sides()[i];
+        const double length = side.along.norm();
+        const double along = (p - side.begin).dot(side.along) / length;
+        const Eigen::Vector2d foot =
+            side.begin + side.along * (std::clamp(along, 0.0, length) / length);
+        const double distance = (p - foot).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        beside = along >= from_corner && along <= length - from_corner;
+        const Edge& edge = edges_[side.edge];
+        best = Place{side.edge, edge.inward.dot(p - edge.middle), edge.inward};
+    }
     for (const Round& round : rounds_) {
         const Eigen::Vector2d away = p - round.centre;
         const double distance = std::abs(away.norm() - round.radius);
@@ -89,11 +89,12 @@ std::optional<PlateEdges::Place> PlateEdges::near(const Eigen::Vector2d& p, doub
 
 double PlateEdges::inside(const Eigen::Vector2d& p) const {
     double nearest = std::numeric_limits<double>::infinity();
-    bool on_plate = true;
-    for (const Ring& ring : rings_) {
-        nearest = std::min(nearest, distance_to_polygon(ring.corners, p));
-        if (inside_polygon(ring.corners, p) == ring.hole) on_plate = false;
-    }
+    const PlateSideGrid::Cell& cell = grid_.at(p);
+    bool on_plate = cell.on_plate;
+    for (const std::size_t i : cell.sides)
+        nearest = std::min(nearest, distance_to(grid_.sides()[i], p));
+    for (const std::size_t r : cell.rings)
+        if (inside_polygon(rings_[r].corners, p) == rings_[r].hole) on_plate = false;
     for (const Round& round : rounds_) {
         const double outside = (p - round.centre).norm() - round.radius;
         nearest = std::min(nearest, std::abs(outside));

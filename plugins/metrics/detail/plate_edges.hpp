@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "metrics/detail/plate_side_grid.hpp"
 #include "petal/calibration/target.hpp"
 
 namespace petal {
@@ -43,11 +44,6 @@ class PlateEdges {
     double inside(const Eigen::Vector2d& p) const;
 
    private:
-    struct Ring {
-        std::vector<Eigen::Vector2d> corners;
-        bool hole = false;
-        std::size_t first_edge = 0;
-    };
     struct Round {
         Eigen::Vector2d centre = Eigen::Vector2d::Zero();
         double radius = 0.0;
@@ -56,7 +52,8 @@ class PlateEdges {
     void add_ring(std::vector<Eigen::Vector2d> corners, bool hole);
 
     std::vector<Edge> edges_;
-    std::vector<Ring> rings_;
+    std::vector<PlateRing> rings_;
+    PlateSideGrid grid_;
     std::vector<Round> rounds_;
     double width_ = 0.0, height_ = 0.0;
 };

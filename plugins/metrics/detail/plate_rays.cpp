@@ -7,25 +7,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "petal/calibration/for_pieces.hpp"
+
 namespace petal {
 namespace {
 
 constexpr std::size_t kFewestPlanePoints = 30;
+constexpr std::size_t kPointsAtOnce = 65536;
+
+/// A point of the plate: where, from its middle, and how far off.
+struct PlatePoint {
+    Eigen::Vector2d from;
+    double off;
+};
 
 /// Points of the plate, with their weights 0 or 1 by the distance from the plane so far.
-PlatePlane fit_once(const std::vector<PlateRay>& rays, const std::vector<std::size_t>& members,
-                    const Eigen::Vector2d& middle, const PlatePlane& before, double limit) {
+PlatePlane fit_once(const std::vector<PlatePoint>& points, const PlatePlane& before, double limit) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     double squares = 0.0;
     PlatePlane plane;
-    for (const std::size_t i : members) {
-        const Eigen::Vector2d from = rays[i].at - middle;
-        if (std::abs(rays[i].off - before.at(from)) > limit) continue;
-        const Eigen::Vector3d row(1.0, from.x(), from.y());
+    for (const PlatePoint& point : points) {
+        if (std::abs(point.off - before.at(point.from)) > limit) continue;
+        const Eigen::Vector3d row(1.0, point.from.x(), point.from.y());
         normal += row * row.transpose();
-        right += row * rays[i].off;
-        squares += rays[i].off * rays[i].off;
+        right += row * point.off;
+        squares += point.off * point.off;
         ++plane.count;
     }
     if (plane.count < kFewestPlanePoints) return plane;
@@ -44,8 +51,9 @@ PlatePlane fit_once(const std::vector<PlateRay>& rays, const std::vector<std::si
 
 }  // namespace
 
-std::vector<PlateRay> plate_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_board,
-                                 double width, double height, double border) {
+std::vector<PlateRay> plate_rays(const Run& run, const Cloud& cloud,
+                                 const Eigen::Isometry3d& T_lidar_board, double width,
+                                 double height, double border) {
     std::vector<PlateRay> rays;
     const Eigen::Isometry3d to_board = T_lidar_board.inverse();
     if (!to_board.matrix().allFinite()) return rays;
@@ -60,46 +68,54 @@ std::vector<PlateRay> plate_rays(const Cloud& cloud, const Eigen::Isometry3d& T_
     const auto& xs = cloud.points->getPointsBufferRef_x();
     const auto& ys = cloud.points->getPointsBufferRef_y();
     const auto& zs = cloud.points->getPointsBufferRef_z();
-    for (std::size_t i = 0; i < xs.size(); ++i) {
+    const auto add = [&](std::size_t i, std::vector<PlateRay>& to) {
         const Eigen::Vector3d p(static_cast<double>(xs[i]), static_cast<double>(ys[i]),
                                 static_cast<double>(zs[i]));
         const double along = axis.dot(p);
-        if (!(along > 0.0) || !(along * along >= cosine * cosine * p.squaredNorm())) continue;
+        if (!(along > 0.0) || !(along * along >= cosine * cosine * p.squaredNorm())) return;
         const Eigen::Vector3d ray = to_board * p - sensor;
-        if (!(ray.z() > 1e-6) || !ray.allFinite()) continue;
+        if (!(ray.z() > 1e-6) || !ray.allFinite()) return;
         const double share = -sensor.z() / ray.z();
         PlateRay found;
         found.lean = ray.head<2>() / ray.z();
         found.at = sensor.head<2>() - sensor.z() * found.lean;
         if (found.at.x() < -border || found.at.x() > width + border || found.at.y() < -border ||
             found.at.y() > height + border)
-            continue;
+            return;
         found.depth = (1.0 - share) * ray.norm();
         found.off = sensor.z() + ray.z();
         found.point = i;
-        rays.push_back(found);
-    }
+        to.push_back(found);
+    };
+    std::vector<std::vector<PlateRay>> parts((xs.size() + kPointsAtOnce - 1) / kPointsAtOnce);
+    for_pieces(run, parts.size(), 1, [&](std::size_t part, std::size_t end) {
+        for (; part < end; ++part)
+            for (std::size_t i = part * kPointsAtOnce;
+                 i < std::min((part + 1) * kPointsAtOnce, xs.size()); ++i)
+                add(i, parts[part]);
+    });
+    for (const auto& part : parts) rays.insert(rays.end(), part.begin(), part.end());
     return rays;
 }
 
 std::optional<PlatePlane> plate_plane(const std::vector<PlateRay>& rays, const PlateEdges& edges,
                                       double from_edge, double depth) {
-    std::vector<std::size_t> members;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (std::abs(rays[i].off) <= depth && edges.inside(rays[i].at) >= from_edge)
-            members.push_back(i);
-    if (members.size() < kFewestPlanePoints) return std::nullopt;
+    std::vector<PlatePoint> points;
+    std::vector<double> offs;
+    for (const PlateRay& ray : rays) {
+        if (std::abs(ray.off) > depth || edges.inside(ray.at) < from_edge) continue;
+        points.push_back({ray.at - edges.middle(), ray.off});
+        offs.push_back(ray.off);
+    }
+    if (points.size() < kFewestPlanePoints) return std::nullopt;
     PlatePlane plane;
     // The median first, so that a wall close behind does not draw the plane to itself.
-    std::vector<double> offs;
-    offs.reserve(members.size());
-    for (const std::size_t i : members) offs.push_back(rays[i].off);
     const auto half = offs.begin() + static_cast<std::ptrdiff_t>(offs.size() / 2);
     std::nth_element(offs.begin(), half, offs.end());
     plane.value.x() = *half;
     double limit = depth;
     for (int turn = 0; turn < 4; ++turn) {
-        plane = fit_once(rays, members, edges.middle(), plane, limit);
+        plane = fit_once(points, plane, limit);
         if (plane.count < kFewestPlanePoints) return std::nullopt;
         limit = std::max(3.5 * plane.rms, 1e-4);
     }

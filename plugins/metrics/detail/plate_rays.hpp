@@ -11,6 +11,7 @@
 
 #include "metrics/detail/plate_edges.hpp"
 #include "petal/calibration/cloud.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -35,11 +36,12 @@ struct PlatePlane {
     }
 };
 
-/// The rays of a cloud that pass through a board's bounding box, `border` (m) wider. Linear in the
-/// points; points with NaN are left out. Empty where the sensor lies in the board's plane, or
-/// behind it.
-std::vector<PlateRay> plate_rays(const Cloud& cloud, const Eigen::Isometry3d& T_lidar_board,
-                                 double width, double height, double border);
+/// The rays of a cloud that pass through a board's bounding box, `border` (m) wider, in the order
+/// of the points. Linear in the points; points with NaN are left out. Empty where the sensor lies
+/// in the board's plane, or behind it. \throws Cancelled
+std::vector<PlateRay> plate_rays(const Run& run, const Cloud& cloud,
+                                 const Eigen::Isometry3d& T_lidar_board, double width,
+                                 double height, double border);
 
 /// The plane through the points on the plate, farther than `from_edge` from its edges, within
 /// `depth` of z = 0; robust against what does not belong to it. None for fewer than 30 points.

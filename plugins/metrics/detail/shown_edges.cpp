@@ -7,6 +7,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "petal/calibration/for_pieces.hpp"
 
 namespace petal {
 namespace {
@@ -17,6 +20,7 @@ constexpr double kSteepest = 2000.0;     // 1/m, 1 sigma of a prior: an edge sho
 constexpr double kContradicts = 5.0;     // logit: one in 150 by chance, an occluder otherwise
 constexpr double kSureOfShift = 4.0;     // logit: beyond it a ray tells of no shift
 constexpr int kTurns = 30;
+constexpr double kLargestFactors = 1e300;  // twice that is still finite
 
 double probability(double logit) {
     return logit >= 0.0 ? 1.0 / (1.0 + std::exp(-logit))
@@ -28,53 +32,91 @@ bool contradicts(bool hit, double logit) {
     return hit ? logit < -kContradicts : logit > kContradicts;
 }
 
+/// Of a ray beside an edge what the fit of the edge asks for.
+struct RayOutcome {
+    double inside;
+    bool hit;
+};
+
+/// The law of one edge, logit = x + y inside, against its rays.
+struct Likelihood {
+    double loss;  ///< minus its logarithm
+    Eigen::Vector2d gradient;
+    Eigen::Matrix2d information;
+};
+
+Likelihood likelihood(const std::vector<RayOutcome>& rays, const Eigen::Vector2d& value) {
+    constexpr double kPrior = 1.0 / (kSteepest * kSteepest);
+    double loss = 0.5 * kPrior * value.y() * value.y();
+    double at = 0.0, by = -kPrior * value.y();         // gradient
+    double at_at = 1e-9, at_by = 0.0, by_by = kPrior;  // information
+    double factors = 1.0;  // of one logarithm for many rays: it would cost more than all else
+    for (const RayOutcome& ray : rays) {
+        const double logit = value.x() + value.y() * ray.inside;
+        const double e = std::exp(-std::abs(logit));
+        const double p = (logit >= 0.0 ? 1.0 : e) / (1.0 + e);
+        const double miss = (ray.hit ? 1.0 : 0.0) - p;
+        const double weight = p * (1.0 - p);
+        at += miss;
+        by += miss * ray.inside;
+        at_at += weight;
+        at_by += weight * ray.inside;
+        by_by += weight * ray.inside * ray.inside;
+        // -log p of what the ray did is log(1 + e), and the logit too where it did the unlikely.
+        if (ray.hit != (logit >= 0.0)) loss += std::abs(logit);
+        factors *= 1.0 + e;
+        if (factors < kLargestFactors) continue;
+        loss += std::log(factors);
+        factors = 1.0;
+    }
+    Likelihood found{loss + std::log(factors), {at, by}, {}};
+    found.information << at_at, at_by, at_by, by_by;
+    return found;
+}
+
 struct Logistic {
     Eigen::Vector2d value = Eigen::Vector2d(0.0, 200.0);  ///< at the edge, by inside (1/m)
     Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
 };
 
 /// Newton's method: the likelihood is concave, so damping by halves is all that it needs.
-Logistic fit_logistic(const std::vector<const EdgeRay*>& rays, Logistic fit, bool trim) {
-    const auto loss = [&](const Eigen::Vector2d& value, const Logistic& kept_by) {
-        double sum = 0.5 * value.y() * value.y() / (kSteepest * kSteepest);
-        for (const EdgeRay* ray : rays) {
-            if (trim && contradicts(ray->hit, kept_by.value.x() + kept_by.value.y() * ray->inside))
-                continue;
-            const double logit = value.x() + value.y() * ray->inside;
-            const double wrong = ray->hit ? -logit : logit;
-            sum += wrong > 30.0 ? wrong : std::log1p(std::exp(wrong));
-        }
-        return sum;
-    };
-    const Logistic kept_by = fit;
-    double best = loss(fit.value, kept_by);
+Logistic fit_logistic(const std::vector<RayOutcome>& rays, Logistic fit) {
+    Likelihood best = likelihood(rays, fit.value);
     for (int turn = 0; turn < kTurns; ++turn) {
-        Eigen::Vector2d gradient(0.0, -fit.value.y() / (kSteepest * kSteepest));
-        Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-        information(0, 0) = 1e-9;
-        information(1, 1) = 1.0 / (kSteepest * kSteepest);
-        for (const EdgeRay* ray : rays) {
-            if (trim && contradicts(ray->hit, kept_by.value.x() + kept_by.value.y() * ray->inside))
-                continue;
-            const Eigen::Vector2d row(1.0, ray->inside);
-            const double p = probability(fit.value.dot(row));
-            gradient += ((ray->hit ? 1.0 : 0.0) - p) * row;
-            information += p * (1.0 - p) * row * row.transpose();
-        }
-        fit.information = information;
-        Eigen::Vector2d step = information.ldlt().solve(gradient);
-        double now = loss(fit.value + step, kept_by);
-        for (int half = 0; half < 20 && now > best; ++half) {
+        Eigen::Vector2d step = best.information.ldlt().solve(best.gradient);
+        Likelihood now = likelihood(rays, fit.value + step);
+        for (int half = 0; half < 20 && now.loss > best.loss; ++half) {
             step *= 0.5;
-            now = loss(fit.value + step, kept_by);
+            now = likelihood(rays, fit.value + step);
         }
-        if (!(now <= best)) break;
+        if (!(now.loss <= best.loss)) break;
         fit.value += step;
-        const bool settled = best - now < 1e-9 * (1.0 + best);
+        const bool settled = best.loss - now.loss < 1e-9 * (1.0 + best.loss);
         best = now;
         if (settled) break;
     }
+    fit.information = best.information;
     return fit;
+}
+
+/// One edge from the rays beside it; those that contradict the fit to all are left out of another.
+std::optional<ShownEdge> shown_edge(std::vector<RayOutcome> rays) {
+    const auto hits = static_cast<std::size_t>(
+        std::count_if(rays.begin(), rays.end(), [](const RayOutcome& ray) { return ray.hit; }));
+    if (hits < kFewestRays || rays.size() - hits < kFewestRays) return std::nullopt;
+    Logistic fit = fit_logistic(rays, Logistic{});
+    const auto wrong = [&fit](const RayOutcome& ray) {
+        return contradicts(ray.hit, fit.value.x() + fit.value.y() * ray.inside);
+    };
+    rays.erase(std::remove_if(rays.begin(), rays.end(), wrong), rays.end());
+    fit = fit_logistic(rays, fit);
+    const double slope = fit.value.y();
+    if (!(slope > 20.0)) return std::nullopt;  // no step at all: something hides this edge
+    const double out = fit.value.x() / slope;
+    const Eigen::Vector2d by(1.0 / slope, -out / slope);
+    const double variance = by.dot(fit.information.ldlt().solve(by));
+    if (!(variance > 0.0)) return std::nullopt;
+    return ShownEdge{out, std::sqrt(variance), slope};
 }
 
 }  // namespace
@@ -92,24 +134,14 @@ std::vector<EdgeRay> edge_rays(const std::vector<PlateRay>& rays, const PlateEdg
     return beside;
 }
 
-std::vector<std::optional<ShownEdge>> shown_edges(const std::vector<EdgeRay>& rays,
+std::vector<std::optional<ShownEdge>> shown_edges(const Run& run, const std::vector<EdgeRay>& rays,
                                                   std::size_t edges) {
-    std::vector<std::vector<const EdgeRay*>> by_edge(edges);
-    for (const EdgeRay& ray : rays) by_edge[ray.edge].push_back(&ray);
+    std::vector<std::vector<RayOutcome>> by_edge(edges);
+    for (const EdgeRay& ray : rays) by_edge[ray.edge].push_back({ray.inside, ray.hit});
     std::vector<std::optional<ShownEdge>> shown(edges);
-    for (std::size_t e = 0; e < edges; ++e) {
-        const auto hits = static_cast<std::size_t>(std::count_if(
-            by_edge[e].begin(), by_edge[e].end(), [](const EdgeRay* ray) { return ray->hit; }));
-        if (hits < kFewestRays || by_edge[e].size() - hits < kFewestRays) continue;
-        Logistic fit = fit_logistic(by_edge[e], Logistic{}, false);
-        fit = fit_logistic(by_edge[e], fit, true);
-        const double slope = fit.value.y();
-        if (!(slope > 20.0)) continue;  // no step at all: something hides this edge
-        const double out = fit.value.x() / slope;
-        const Eigen::Vector2d by(1.0 / slope, -out / slope);
-        const double variance = by.dot(fit.information.ldlt().solve(by));
-        if (variance > 0.0) shown[e] = ShownEdge{out, std::sqrt(variance), slope};
-    }
+    for_pieces(run, edges, 1, [&](std::size_t edge, std::size_t end) {
+        for (; edge < end; ++edge) shown[edge] = shown_edge(std::move(by_edge[edge]));
+    });
     return shown;
 }
 

@@ -10,6 +10,7 @@
 
 #include "metrics/detail/plate_edges.hpp"
 #include "metrics/detail/plate_rays.hpp"
+#include "petal/run.hpp"
 
 namespace petal {
 
@@ -37,8 +38,8 @@ struct ShownEdge {
 
 /// For each edge where it shows, by maximum likelihood over the rays beside it; what contradicts
 /// strongly (an occluder, a hit far outside) is left out. None where fewer than 15 hits or misses
-/// are there to tell.
-std::vector<std::optional<ShownEdge>> shown_edges(const std::vector<EdgeRay>& rays,
+/// are there to tell. \throws Cancelled
+std::vector<std::optional<ShownEdge>> shown_edges(const Run& run, const std::vector<EdgeRay>& rays,
                                                   std::size_t edges);
 
 /// How far the plate lies aside of the place that its shown edges have.

@@ -112,8 +112,11 @@ TEST(BoardCheckStage, APlateWithoutHolesIsNoBoardOfAnotherSize) {
     PlateWorld world;
     world.target = scaled(world.target, 0.9);
     world.target.holes.clear();
-    EXPECT_TRUE(other_plates(world.cloud(), plane_of(world), load_target("four_square_holes_500mm"))
-                    .empty());
+    auto stage = check(world, LidarBoards{"LIDAR", {}});
+    stage.give<Planes>("planes", plane_of(world), "hall");
+    stage.fire();
+    EXPECT_TRUE(found(stage).empty());
+    EXPECT_TRUE(stage.notes().empty());
 }
 
 TEST(BoardCheckStage, ABoardThatWasFoundIsNotLookedForAgain) {
