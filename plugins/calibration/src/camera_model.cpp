@@ -20,20 +20,23 @@ constexpr double kScanStep = 1e-3;  // rad, when looking for the angle at which 
 constexpr double kMinDepth = 1e-9;  // m; nearer than this is not in front of the camera
 
 /// A radial law: the factor on (x, y) at the ideal radius r, and its derivative by r, divided by r.
+/// The latter costs as much again, and clouds that are projected do not ask for it.
+enum class Slope { left_out, told };
 struct Radial {
     double factor;
     double slope;
 };
 
-Radial plumb_bob(const TCamera& c, double r2) {
+Radial plumb_bob(const TCamera& c, double r2, Slope slope) {
     const double num = 1.0 + r2 * (c.k1() + r2 * (c.k2() + r2 * c.k3()));
     const double den = 1.0 + r2 * (c.k4() + r2 * (c.k5() + r2 * c.k6()));
+    if (slope == Slope::left_out) return {num / den, 0.0};
     const double d_num = c.k1() + r2 * (2.0 * c.k2() + r2 * 3.0 * c.k3());
     const double d_den = c.k4() + r2 * (2.0 * c.k5() + r2 * 3.0 * c.k6());
     return {num / den, 2.0 * (d_num * den - num * d_den) / (den * den)};
 }
 
-Radial kannala_brandt(const TCamera& c, double r2) {
+Radial kannala_brandt(const TCamera& c, double r2, Slope slope) {
     const double r = std::sqrt(r2);
     // theta_d(atan r) / r = 1 + (k1 - 1/3) r^2 + ...: the quotients below lose their digits at 0.
     if (r < 1e-3) {
@@ -44,18 +47,19 @@ Radial kannala_brandt(const TCamera& c, double r2) {
     const double t2 = theta * theta;
     const double distorted =
         theta * (1.0 + t2 * (c.k1() + t2 * (c.k2() + t2 * (c.k3() + t2 * c.k4()))));
+    if (slope == Slope::left_out) return {distorted / r, 0.0};
     const double by_theta =
         1.0 + t2 * (3.0 * c.k1() + t2 * (5.0 * c.k2() + t2 * (7.0 * c.k3() + t2 * 9.0 * c.k4())));
     const double by_r = by_theta / (1.0 + r2);
     return {distorted / r, (by_r * r - distorted) / (r2 * r)};
 }
 
-Radial radial(const TCamera& c, double r2) {
+Radial radial(const TCamera& c, double r2, Slope slope) {
     switch (c.distortion) {
         case DistortionModel::plumb_bob:
-            return plumb_bob(c, r2);
+            return plumb_bob(c, r2, slope);
         case DistortionModel::kannala_brandt:
-            return kannala_brandt(c, r2);
+            return kannala_brandt(c, r2, slope);
         case DistortionModel::none:
             break;
     }
@@ -65,7 +69,7 @@ Radial radial(const TCamera& c, double r2) {
 /// Whether the distorted radius grows at this angle, and no pole lies there.
 bool grows(const TCamera& c, double theta) {
     const double r = std::tan(theta);
-    const Radial law = radial(c, r * r);
+    const Radial law = radial(c, r * r, Slope::told);
     return law.factor > 0.0 && law.factor + r * r * law.slope > 0.0;
 }
 
@@ -84,21 +88,27 @@ double monotonic_limit(const TCamera& c) {
     return kRightAngle;
 }
 
-/// Distorted ideal coordinates (x / z, y / z), and their Jacobian.
+/// Distorted ideal coordinates (x / z, y / z), and their Jacobian where it is asked for.
 Eigen::Vector2d distorted(const TCamera& c, const Eigen::Vector2d& ideal,
-                          Eigen::Matrix2d& jacobian) {
+                          Eigen::Matrix2d* jacobian) {
     const double r2 = ideal.squaredNorm();
-    const Radial law = radial(c, r2);
+    const Radial law = radial(c, r2, jacobian != nullptr ? Slope::told : Slope::left_out);
+    const bool tangential = c.distortion == DistortionModel::plumb_bob;
+    const double x = ideal.x(), y = ideal.y();
     Eigen::Vector2d result = law.factor * ideal;
-    jacobian = law.factor * Eigen::Matrix2d::Identity() + law.slope * ideal * ideal.transpose();
-    if (c.distortion == DistortionModel::plumb_bob) {
-        const double x = ideal.x(), y = ideal.y(), p1 = c.p1(), p2 = c.p2();
+    if (tangential) {
+        const double p1 = c.p1(), p2 = c.p2();
         result.x() += 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x);
         result.y() += p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
-        jacobian(0, 0) += 2.0 * p1 * y + 6.0 * p2 * x;
-        jacobian(0, 1) += 2.0 * p1 * x + 2.0 * p2 * y;
-        jacobian(1, 0) += 2.0 * p1 * x + 2.0 * p2 * y;
-        jacobian(1, 1) += 6.0 * p1 * y + 2.0 * p2 * x;
+    }
+    if (jacobian == nullptr) return result;
+    *jacobian = law.factor * Eigen::Matrix2d::Identity() + law.slope * ideal * ideal.transpose();
+    if (tangential) {
+        const double p1 = c.p1(), p2 = c.p2();
+        (*jacobian)(0, 0) += 2.0 * p1 * y + 6.0 * p2 * x;
+        (*jacobian)(0, 1) += 2.0 * p1 * x + 2.0 * p2 * y;
+        (*jacobian)(1, 0) += 2.0 * p1 * x + 2.0 * p2 * y;
+        (*jacobian)(1, 1) += 6.0 * p1 * y + 2.0 * p2 * x;
     }
     return result;
 }
@@ -109,7 +119,7 @@ double ideal_radius(const TCamera& c, double distorted_radius, double max_theta)
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
         const double r = std::tan(middle);
-        (r * radial(c, r * r).factor < distorted_radius ? low : high) = middle;
+        (r * radial(c, r * r, Slope::left_out).factor < distorted_radius ? low : high) = middle;
     }
     return std::tan(low);
 }
@@ -144,13 +154,18 @@ CameraModel::CameraModel(const TCamera& camera)
 std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& p,
                                                     Eigen::Matrix<double, 2, 3>* jacobian) const {
     if (!(p.z() > kMinDepth)) return std::nullopt;
-    // Written so that NaN fails too.
-    if (!(std::atan2(std::hypot(p.x(), p.y()), p.z()) < max_theta_)) return std::nullopt;
+    // A tangent is not less than its angle: most points are known to lie within by that alone, and
+    // whole clouds come here. Written so that NaN fails too.
+    const double surely_within = 0.999 * max_theta_ * p.z();
+    if (!(p.head<2>().squaredNorm() < surely_within * surely_within) &&
+        !(std::atan2(std::hypot(p.x(), p.y()), p.z()) < max_theta_))
+        return std::nullopt;
 
     const double inverse_depth = 1.0 / p.z();
     const Eigen::Vector2d ideal = p.head<2>() * inverse_depth;
     Eigen::Matrix2d by_ideal;
-    const Eigen::Vector2d bent = distorted(camera_, ideal, by_ideal);
+    const Eigen::Vector2d bent =
+        distorted(camera_, ideal, jacobian != nullptr ? &by_ideal : nullptr);
     const Eigen::Vector2d pixel(fx_ * bent.x() + cx_, fy_ * bent.y() + cy_);
     if (!pixel.allFinite()) return std::nullopt;
     if (jacobian != nullptr) {
@@ -175,7 +190,7 @@ std::optional<Eigen::Vector3d> CameraModel::unproject(const Eigen::Vector2d& pix
     // start then lies at the rim and the residual stays.
     for (int i = 0; i < 20; ++i) {
         Eigen::Matrix2d jacobian;
-        const Eigen::Vector2d error = distorted(camera_, ideal, jacobian) - target;
+        const Eigen::Vector2d error = distorted(camera_, ideal, &jacobian) - target;
         if (!error.allFinite()) return std::nullopt;
         if (error.norm() <= 1e-13 * (1.0 + radius)) break;
         const Eigen::Vector2d step = jacobian.fullPivLu().solve(error);
