@@ -3,12 +3,15 @@
 
 #include "sinks/report.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/calibration/metrics.hpp"
 #include "petal/html/escape.hpp"
 #include "petal/html/page.hpp"
@@ -106,8 +109,21 @@ void Report::finish(Run& run) {
     settings.width = params_.picture_width;
     settings.max_points = static_cast<std::size_t>(params_.picture_points);
     settings.residual_scale = params_.residual_scale;
-    const auto pictures = report_pictures(run, extrinsics, scenes, places,
-                                          clouds_by_scene(run.all<Cloud>("edges")), settings);
+    const auto edges = clouds_by_scene(run.all<Cloud>("edges"));
+    const bool has_view = run.wired("cloud");
+    const ViewPoints view_lots =
+        has_view ? view_points(run.rng(), scenes, static_cast<std::size_t>(params_.view_points))
+                 : ViewPoints();
+
+    std::vector<ReportPicture> pictures;
+    nlohmann::ordered_json view;
+    on_run_threads(run, [&] {
+        tbb::parallel_invoke(
+            [&] { pictures = report_pictures(run, extrinsics, scenes, places, edges, settings); },
+            [&] {
+                if (has_view) view = report_view(run, extrinsics, scenes, places, view_lots);
+            });
+    });
 
     html::Page page;
     page.document = result_json(input);
@@ -121,9 +137,8 @@ void Report::finish(Run& run) {
         page.sections.push_back(trust_section(result));
         page.sections.push_back(residual_section(result));
     }
-    if (run.wired("cloud")) {
-        page.sections.push_back(view_section(report_view(
-            run, extrinsics, scenes, places, static_cast<std::size_t>(params_.view_points))));
+    if (has_view) {
+        page.sections.push_back(view_section(view));
         page.scripts = {kThreeScript, kViewScript};
     }
     page.sections.push_back(photo_section(result, pictures, params_.residual_scale));

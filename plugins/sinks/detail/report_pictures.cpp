@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/error.hpp"
 
 namespace petal {
@@ -54,6 +55,44 @@ cv::Rect part_of_photo(const ImageBoard& board, const CameraImage& image) {
     return {begin, end};
 }
 
+/// A picture to make: a whole photo, or a board on it.
+struct Drawing {
+    const SceneView* scene;
+    const Cloud* cloud;
+    const CameraImage* image;
+    const CameraExtrinsics* solved;
+    std::size_t picture;  ///< of the report
+    int magnification, line_width, width;
+    cv::Rect part;
+    double dot;
+};
+
+Drawing photo_drawing(Drawing drawing, int width) {
+    const int photo_width = static_cast<int>(drawing.image->image.getWidth());
+    drawing.line_width = std::max(1, (photo_width + width / 2) / width);
+    drawing.magnification = photo_width < width / 2 ? 2 : 1;
+    drawing.width = width;
+    drawing.dot = 1.0;
+    return drawing;
+}
+
+Drawing board_drawing(Drawing drawing, const cv::Rect& part) {
+    drawing.magnification = std::clamp(kBoardWidth / part.width, 1, kMostEnlarged);
+    // Lines twice as wide as the photo's, and dots that leave them to be seen.
+    drawing.line_width = 2 * std::max(1, part.width / kBoardWidth);
+    drawing.dot = 0.3;
+    drawing.part = part;
+    drawing.width = kBoardWidth;
+    return drawing;
+}
+
+ReportJpeg drawn(const Drawing& drawing, const PictureSettings& settings) {
+    OverlayCanvas canvas(*drawing.image, drawing.magnification, drawing.line_width, drawing.part);
+    draw_scene(canvas, *drawing.scene, drawing.cloud, drawing.image->label, drawing.solved,
+               settings.max_points, settings.residual_scale, drawing.dot);
+    return jpeg_of(shrunk(canvas.picture(), drawing.width));
+}
+
 }  // namespace
 
 std::vector<ReportPicture> report_pictures(
@@ -61,47 +100,45 @@ std::vector<ReportPicture> report_pictures(
     const ScenePlaces& places, const std::map<std::uint64_t, std::shared_ptr<const Cloud>>& edges,
     const PictureSettings& settings) {
     std::vector<ReportPicture> pictures;
-    for (const auto& [number, seen] : scenes) {
-        const SceneView& scene = seen;  // a lambda may not capture what a binding names
+    std::vector<Drawing> drawings;
+    for (const auto& [number, scene] : scenes) {
         if (!scene.images) continue;
         const auto edge_cloud = edges.find(number);
-        const Cloud* const cloud =
-            edge_cloud == edges.end() ? scene.cloud.get() : edge_cloud->second.get();
         const auto place = places.find(number);
         for (const CameraImage& image : scene.images->cameras) {
-            run.check_cancelled();
-            const CameraExtrinsics* solved = extrinsics_of(extrinsics, image.label);
-            const auto draw = [&](int magnification, int line_width, const cv::Rect& part,
-                                  double dot) {
-                OverlayCanvas canvas(image, magnification, line_width, part);
-                draw_scene(canvas, scene, cloud, image.label, solved, settings.max_points,
-                           settings.residual_scale, dot);
-                return canvas.picture();
-            };
+            Drawing drawing{};
+            drawing.scene = &scene;
+            drawing.cloud =
+                edge_cloud == edges.end() ? scene.cloud.get() : edge_cloud->second.get();
+            drawing.image = &image;
+            drawing.solved = extrinsics_of(extrinsics, image.label);
+            drawing.picture = pictures.size();
             ReportPicture picture;
             picture.scene = scene.name;
             if (place != places.end())
                 picture.scene_from = "/scenes/" + std::to_string(place->second);
             picture.camera = image.label;
-            picture.solved = solved != nullptr;
-            const int photo_width = static_cast<int>(image.image.getWidth());
-            const int line_width = std::max(1, (photo_width + settings.width / 2) / settings.width);
-            const int magnification = photo_width < settings.width / 2 ? 2 : 1;
-            picture.photo =
-                jpeg_of(shrunk(draw(magnification, line_width, cv::Rect(), 1.0), settings.width));
-            if (scene.image_boards)
-                for (const ImageBoard& board : scene.image_boards->boards) {
-                    if (board.camera != image.label) continue;
-                    const cv::Rect part = part_of_photo(board, image);
-                    if (part.empty()) continue;
-                    const int enlarged = std::clamp(kBoardWidth / part.width, 1, kMostEnlarged);
-                    const int wide = std::max(1, part.width / kBoardWidth);
-                    // Lines twice as wide as the photo's, and dots that leave them to be seen.
-                    picture.boards.push_back(
-                        jpeg_of(shrunk(draw(enlarged, 2 * wide, part, 0.3), kBoardWidth)));
-                }
+            picture.solved = drawing.solved != nullptr;
             pictures.push_back(std::move(picture));
+            drawings.push_back(photo_drawing(drawing, settings.width));
+            if (!scene.image_boards) continue;
+            for (const ImageBoard& board : scene.image_boards->boards) {
+                if (board.camera != image.label) continue;
+                const cv::Rect part = part_of_photo(board, image);
+                if (!part.empty()) drawings.push_back(board_drawing(drawing, part));
+            }
         }
+    }
+    std::vector<ReportJpeg> jpegs(drawings.size());
+    for_pieces(run, drawings.size(), 1, [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i) jpegs[i] = drawn(drawings[i], settings);
+    });
+    for (std::size_t i = 0; i < drawings.size(); ++i) {
+        ReportPicture& picture = pictures[drawings[i].picture];
+        if (drawings[i].part.empty())
+            picture.photo = std::move(jpegs[i]);
+        else
+            picture.boards.push_back(std::move(jpegs[i]));
     }
     return pictures;
 }

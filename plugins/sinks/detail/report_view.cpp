@@ -37,14 +37,19 @@ std::map<std::uint64_t, std::size_t> shares(const std::map<std::uint64_t, SceneV
     return told;
 }
 
-/// So many of `size` indices, ascending, each set of them equally likely (selection sampling:
-/// Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S). Not every k-th: a scanner's lines
-/// would beat with that.
+/// So many of `size` indices, ascending, each set of them equally likely (Floyd's algorithm: one
+/// lot for each index drawn, not for each there is). Not every k-th: a scanner's lines would beat
+/// with that.
 std::vector<std::size_t> drawn_indices(Rng& rng, std::size_t size, std::size_t count) {
+    std::vector<bool> taken(size);
+    for (std::size_t last = size - count; last < size; ++last) {
+        const auto lot = static_cast<std::size_t>(rng() % (last + 1));
+        taken[taken[lot] ? last : lot] = true;
+    }
     std::vector<std::size_t> drawn;
     drawn.reserve(count);
-    for (std::size_t i = 0; i < size && drawn.size() < count; ++i)
-        if (rng() % (size - i) < count - drawn.size()) drawn.push_back(i);
+    for (std::size_t i = 0; i < size; ++i)
+        if (taken[i]) drawn.push_back(i);
     return drawn;
 }
 
@@ -111,10 +116,9 @@ void add_points(ViewJson& scene, const std::vector<ShownPoint>& points) {
     scene["colours"] = html::base64(colours);
 }
 
-ViewJson scene_view_json(Run& run, const Extrinsics& extrinsics, const SceneView& scene,
-                         std::size_t share) {
+ViewJson scene_view_json(const Run& run, const Extrinsics& extrinsics, const SceneView& scene,
+                         const std::vector<std::size_t>& drawn) {
     const Cloud& cloud = *scene.cloud;
-    const std::vector<std::size_t> drawn = drawn_indices(run.rng(), cloud.size(), share);
     std::vector<PointColours> cameras;
     if (scene.images)
         for (const CameraImage& image : scene.images->cameras)
@@ -162,17 +166,24 @@ ViewJson photo_rays(const CameraExtrinsics& camera) {
 
 }  // namespace
 
-nlohmann::ordered_json report_view(Run& run, const Extrinsics& extrinsics,
+ViewPoints view_points(Rng& rng, const std::map<std::uint64_t, SceneView>& scenes,
+                       std::size_t max_points) {
+    ViewPoints drawn;
+    for (const auto& [number, share] : shares(scenes, max_points))
+        drawn[number] = drawn_indices(rng, scenes.at(number).cloud->size(), share);
+    return drawn;
+}
+
+nlohmann::ordered_json report_view(const Run& run, const Extrinsics& extrinsics,
                                    const std::map<std::uint64_t, SceneView>& scenes,
-                                   const ScenePlaces& places, std::size_t max_points) {
-    const auto share = shares(scenes, max_points);
+                                   const ScenePlaces& places, const ViewPoints& points) {
     ViewJson list = ViewJson::array();
     std::size_t shown = 0;
     std::size_t all = 0;
     for (const auto& [number, scene] : scenes) {
         run.check_cancelled();
         if (!scene.cloud) continue;
-        ViewJson told = scene_view_json(run, extrinsics, scene, share.at(number));
+        ViewJson told = scene_view_json(run, extrinsics, scene, points.at(number));
         shown += told["shown"].get<std::size_t>();
         all += scene.cloud->size();
         told["name"] = scene.name;
