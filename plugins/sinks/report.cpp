@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petal/calibration/for_pieces.hpp"
@@ -116,12 +117,13 @@ void Report::finish(Run& run) {
                  : ViewPoints();
 
     std::vector<ReportPicture> pictures;
-    nlohmann::ordered_json view;
+    html::Page::Section view;
     on_run_threads(run, [&] {
         tbb::parallel_invoke(
             [&] { pictures = report_pictures(run, extrinsics, scenes, places, edges, settings); },
             [&] {
-                if (has_view) view = report_view(run, extrinsics, scenes, places, view_lots);
+                if (has_view)
+                    view = view_section(report_view(run, extrinsics, scenes, places, view_lots));
             });
     });
 
@@ -138,7 +140,7 @@ void Report::finish(Run& run) {
         page.sections.push_back(residual_section(result));
     }
     if (has_view) {
-        page.sections.push_back(view_section(view));
+        page.sections.push_back(std::move(view));
         page.scripts = {kThreeScript, kViewScript};
     }
     page.sections.push_back(photo_section(result, pictures, params_.residual_scale));
