@@ -12,6 +12,7 @@
 #include "petal/calibration/correspondences.hpp"
 #include "petal/calibration/extrinsics.hpp"
 #include "petal/calibration/file_name.hpp"
+#include "petal/calibration/for_pieces.hpp"
 #include "petal/calibration/images.hpp"
 #include "petal/calibration/picture_file.hpp"
 #include "sinks/detail/overlay_canvas.hpp"
@@ -29,6 +30,23 @@ std::string picture_name(const std::string& scene, const std::string& camera,
     std::string name = stem;
     for (int n = 2; !taken.insert(name).second; ++n) name = stem + "_" + std::to_string(n);
     return name + ".png";
+}
+
+cv::Mat drawn_overlay(const OverlayParams& params, const Extrinsics& extrinsics,
+                      const SceneView& scene, const CameraImage& image) {
+    const CameraExtrinsics* solved = extrinsics_of(extrinsics, image.label);
+    constexpr std::size_t kNarrow = 1000;  // px: corners' marks cover less of a wider photo
+    const int automatic = image.image.getWidth() < kNarrow ? 2 : 1;
+    OverlayCanvas canvas(image, params.magnification > 0 ? params.magnification : automatic);
+    draw_scene(canvas, scene, scene.cloud.get(), image.label, solved,
+               static_cast<std::size_t>(params.max_points), params.residual_scale);
+    if (solved == nullptr) {
+        canvas.draw_caption("no extrinsics for this camera: detected corners only");
+    } else {
+        canvas.draw_caption(std::string(to_string(extrinsics.level)) + "; residuals x" +
+                            std::to_string(static_cast<int>(params.residual_scale)));
+    }
+    return canvas.picture();
 }
 
 }  // namespace
@@ -72,30 +90,32 @@ void Overlay::describe(Spec<Params>& s) {
 
 void Overlay::finish(Run& run) {
     const Extrinsics& extrinsics = run.in<Extrinsics>("extrinsics");
-    std::set<std::string> taken;
     const auto correspondences = run.all<Correspondences>("correspondences");
-    for (const auto& [number, scene] : scenes_of(run, correspondences)) {
-        run.check_cancelled();
+    const auto scenes = scenes_of(run, correspondences);
+    struct Picture {
+        std::string name;
+        const SceneView* scene;
+        const CameraImage* image;
+        std::vector<unsigned char> bytes;
+    };
+    std::vector<Picture> pictures;
+    std::set<std::string> taken;
+    for (const auto& [number, scene] : scenes) {
         if (!scene.images) continue;
-        for (const CameraImage& image : scene.images->cameras) {
-            const CameraExtrinsics* solved = extrinsics_of(extrinsics, image.label);
-            constexpr std::size_t kNarrow = 1000;  // px: corners' marks cover less of a wider photo
-            const int automatic = image.image.getWidth() < kNarrow ? 2 : 1;
-            OverlayCanvas canvas(image,
-                                 params_.magnification > 0 ? params_.magnification : automatic);
-            draw_scene(canvas, scene, scene.cloud.get(), image.label, solved,
-                       static_cast<std::size_t>(params_.max_points), params_.residual_scale);
-            if (solved == nullptr) {
-                canvas.draw_caption("no extrinsics for this camera: detected corners only");
-            } else {
-                canvas.draw_caption(std::string(to_string(extrinsics.level)) + "; residuals x" +
-                                    std::to_string(static_cast<int>(params_.residual_scale)));
-            }
-            run.save(
-                picture_name(scene.name, image.label, taken),
-                [&](const std::filesystem::path& path) { write_picture(path, canvas.picture()); });
-        }
+        for (const CameraImage& image : scene.images->cameras)
+            pictures.push_back({picture_name(scene.name, image.label, taken), &scene, &image, {}});
     }
+    for_pieces(run, pictures.size(), 1, [&](std::size_t i, std::size_t end) {
+        for (; i < end; ++i) {
+            Picture& picture = pictures[i];
+            picture.bytes = picture_bytes(
+                picture.name, drawn_overlay(params_, extrinsics, *picture.scene, *picture.image));
+        }
+    });
+    for (const Picture& picture : pictures)
+        run.save(picture.name, [&picture](const std::filesystem::path& path) {
+            write_bytes(path, picture.bytes);
+        });
 }
 
 }  // namespace petal
