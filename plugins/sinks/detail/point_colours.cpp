@@ -35,12 +35,14 @@ PointColours::PointColours(const Run& run, const Cloud& cloud, const CameraImage
             if (!p.allFinite()) continue;
             const auto pixel = model.project(p);
             if (!pixel) continue;
-            const double u = pixel->x(), v = pixel->y();
-            // Nearest pixel. Written so that NaN is outside too.
-            if (!(u > -0.5 && v > -0.5 && u < photo_.cols - 0.5 && v < photo_.rows - 0.5)) continue;
+            const double column = std::round(pixel->x());
+            const double row = std::round(pixel->y());
+            // Written so that NaN is outside too.
+            if (!(column >= 0.0 && row >= 0.0 && column < photo_.cols && row < photo_.rows))
+                continue;
             seen_[i].pixel =
-                static_cast<std::uint32_t>(v + 0.5) * static_cast<std::uint32_t>(photo_.cols) +
-                static_cast<std::uint32_t>(u + 0.5);
+                static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(photo_.cols) +
+                static_cast<std::uint32_t>(column);
             seen_[i].depth = static_cast<float>(p.z());
         }
     });
