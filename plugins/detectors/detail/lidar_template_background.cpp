@@ -14,7 +14,15 @@ namespace {
 constexpr double kHalfBeam = 0.0025;
 constexpr double kLeastBehind = 0.010;   ///< m
 constexpr double kRaysOfSide = 8.0;      ///< with fewer, its background is unknown
+constexpr double kAlike = 0.15;          ///< logarithm
 constexpr double kMostBrightness = 2.0;  ///< logarithm: more is a mirror or nothing at all
+
+/// What is nearly as bright differs as much by how far behind it is, which moves edges too and is
+/// not known: a factor that followed such differences came out four times too large.
+double beyond_likeness(double brightness) {
+    const double off = std::min(std::abs(brightness), kMostBrightness) - kAlike;
+    return off > 0.0 ? std::copysign(off, brightness) : 0.0;
+}
 
 struct Behind {
     double sum = 0.0, rays = 0.0;
@@ -44,8 +52,7 @@ std::vector<double> backgrounds_of(const PlateShape& shape, const RayBundle& ray
     std::vector<double> brightness(sides.size(), 0.0);
     for (std::size_t s = 0; s < sides.size(); ++s)
         if (sides[s].rays >= kRaysOfSide)
-            brightness[s] = std::clamp(sides[s].sum / sides[s].rays - mean / known,
-                                       -kMostBrightness, kMostBrightness);
+            brightness[s] = beyond_likeness(sides[s].sum / sides[s].rays - mean / known);
     return brightness;
 }
 

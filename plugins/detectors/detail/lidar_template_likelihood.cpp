@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kFar = 12.0;           ///< widths off an edge: what it does there is below 1e-5
 constexpr double kAlongUp = 0.995;      ///< cosine, 6 deg
+constexpr double kGlareShare = 0.4;     ///< of the shifts' sigmas: what a factor e may do
 constexpr double kLeastWidth = 0.0003;  ///< m
 constexpr std::size_t kPiece = 2048;    ///< rays that are summed together
 
@@ -261,9 +262,9 @@ PlateEvaluation evaluate_plate(const PlateShape& shape, const PlateState& state,
         add_prior(evaluation, kWallLevel + axis, state.wall(axis), priors.wall(axis),
                   priors.wall_sigma(axis));
         add_prior(evaluation, kStretchX + axis, state.stretch(axis), 0.0, priors.stretch_sigma);
-        // A factor e moves the edges by no more than they are moved at all.
-        add_prior(evaluation, kGlareLevel + axis, state.glare(axis), 0.0,
-                  axis == 0 ? priors.shift_level_sigma : priors.shift_upright_sigma);
+        add_prior(
+            evaluation, kGlareLevel + axis, state.glare(axis), 0.0,
+            kGlareShare * (axis == 0 ? priors.shift_level_sigma : priors.shift_upright_sigma));
     }
     return evaluation;
 }
