@@ -20,7 +20,7 @@ namespace petal {
 struct ImageTemplateParams : TemplateFitLimits, TemplateEvidence {
     std::filesystem::path target = "four_square_holes_500mm";
     int levels = 12;
-    int min_holes = 2;
+    int min_holes = 1;
     double sigma_floor_px = 0.02;
 };
 

@@ -17,8 +17,9 @@ model with its formulas, and what was measured, stand in docs/image_template.md.
 1. **Regions.** Global thresholds at quantiles, local means at three scales, and for faint things local means of the smoothed
    image, less the noise that is measured in it. Kept are dark regions with the moments of a hole, and bright ones with the moments
    of the outline, up to an affine map.
-2. **Guesses.** Two regions give an affine map and with it the places of the other holes; a plate gives one by itself.
-   Each allows two poses. A glance at edges and plate puts the likeliest first.
+2. **Guesses.** Two regions give an affine map and with it the places of the other holes; a plate gives one by itself, and so does
+   one whole hole with corners (`min_holes` 1). A look at some fifty grey values drops most: is the plate even there, are the holes darker?
+   Each of the others allows two poses. A glance at edges and plate puts the likeliest first.
 3. **Fit.** The pose, six numbers, by generalised least squares over sub-pixel edge points all along the holes and the
    outline. The points of a side share an offset, whose size the board itself tells; so a side that is not where the geometry puts
    it - a kerb behind a hole, a shadow - loses its weight. Fitted along: how much smaller holes and larger plates look, and how
@@ -35,8 +36,8 @@ Quality of a board: `holes_seen` (as regions; 0: by its plate), `sides_measured`
 `hole_scatter_m` and `outline_scatter_m` (1 sigma of the sides about the pose), `hole_inset_m`, `mean_sigma_px` (of a corner).
 
 Limits: bright plate, darker holes; holes of 5 px or more (`min_hole_px`); half of the plate in the image; tilts to about 70
-deg. Where more than half of a hole's rim shows something as bright as the plate, in most of its holes, the board is lost. The
-camera's intrinsics must be right: a wrong focal length becomes a wrong distance. With `--debug`, and always when no board was found, the
+deg. One hole must be whole and dark, or the plate a region of its own. Where more than half of a hole's rim shows something as bright as
+the plate, in most of its holes, the board is lost. The camera's intrinsics must be right: a wrong focal length becomes a wrong distance. With `--debug`, and always when no board was found, the
 stage saves a picture of regions, refused places with the reason, and boards.)");
     spec.role("image_board_detector");
     spec.reads<Images>("images", "the photos of a scene, each with its camera's intrinsics");
@@ -49,8 +50,8 @@ stage saves a picture of regions, refused places with the reason, and boards.)")
     spec.param("min_holes", &Params::min_holes)
         .within(1, 100)
         .doc(
-            "holes that must be seen as regions for a guess, where the plate itself is not; all "
-            "must show their edges afterwards");
+            "holes that must be seen as regions for a guess, where the plate itself is not; 1: one "
+            "with corners suffices; all must show their edges afterwards");
     spec.param("model_walls", &Params::model_walls)
         .doc(
             "take out the shift of edges where the plate's thickness shows as a wall of a hole or "

@@ -3,8 +3,6 @@
 
 #include "detectors/detail/image_template_guesses.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,8 +10,9 @@
 #include <set>
 
 #include "detectors/detail/image_layout.hpp"
+#include "detectors/detail/image_template_ideal.hpp"
+#include "detectors/detail/image_template_turned.hpp"
 #include "petal/calibration/angles.hpp"
-#include "petal/calibration/polygon.hpp"
 
 namespace petal {
 
@@ -25,58 +24,10 @@ constexpr double kGuessReach = 0.5;
 constexpr double kGuessAreaRatio = 2.2;
 constexpr double kPairRatio = 1.45;  ///< the same for the distance of two holes
 constexpr double kGuessMisfit = 0.2;
-/// cos 75 deg: boards nearer to edge on are not looked for.
-constexpr double kLeastForeshortening = 0.26;
-
-/// The symmetric root of a spread, which must be positive definite.
-Eigen::Matrix2d root_of(const Eigen::Matrix2d& spread) {
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).operatorSqrt();
-}
-
-struct IdealRegion {
-    TemplateShape shape;  ///< ideal pixels
-    Eigen::Matrix2d root, whiten;
-    int index = 0;
-};
-
-/// The regions as an ideal pinhole would see them; those that it cannot see are left out.
-std::vector<IdealRegion> ideal_regions(const std::vector<ImageRegion>& regions,
-                                       const CameraModel& camera) {
-    std::vector<IdealRegion> ideal;
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        const TemplateShape& raw = regions[i].shape;
-        const auto here = camera.undistort(raw.center);
-        const auto right = camera.undistort(raw.center + Eigen::Vector2d(0.5, 0.0));
-        const auto down = camera.undistort(raw.center + Eigen::Vector2d(0.0, 0.5));
-        if (!here || !right || !down) continue;
-        Eigen::Matrix2d j;
-        j << 2.0 * (*right - *here), 2.0 * (*down - *here);
-        IdealRegion region;
-        region.shape = {*here, j * raw.spread * j.transpose(),
-                        raw.area * std::abs(j.determinant())};
-        region.root = root_of(region.shape.spread);
-        if (!(std::abs(region.root.determinant()) > 1e-9)) continue;
-        region.whiten = region.root.inverse();
-        region.index = static_cast<int>(i);
-        ideal.push_back(region);
-    }
-    std::stable_sort(ideal.begin(), ideal.end(), [](const auto& a, const auto& b) {
-        return a.shape.center.y() < b.shape.center.y();
-    });
-    return ideal;
-}
-
-Eigen::Matrix2d turn_by(double angle) {
-    return Eigen::Rotation2Dd(angle).toRotationMatrix();
-}
-
-Homography affine_about(const Eigen::Matrix2d& linear, const Eigen::Vector2d& board,
-                        const Eigen::Vector2d& image) {
-    Homography h = Homography::Identity();
-    h.topLeftCorner<2, 2>() = linear;
-    h.topRightCorner<2, 1>() = image - linear * board;
-    return h;
-}
+/// So near must a hole lie, and so alike be its area, that it counts for whole. One of which only a
+/// part is seen as a region has its middle elsewhere, and draws the map there.
+constexpr double kWholeReach = 0.2;
+constexpr double kWholeAreaRatio = 1.35;
 
 class Guesser {
    public:
@@ -135,42 +86,52 @@ class Guesser {
                                     std::abs(std::log(areas)) / std::log(kGuessAreaRatio));
         try_map(anchor.root * turn_by(angle) * roots_[i].inverse(), anchor, i, doubt);
     }
+    using Members = std::vector<const IdealRegion*>;  ///< by hole; null where none was seen
+
     /// `doubt` about a pair, 0 to 1.
     void try_map(const Eigen::Matrix2d& linear, const IdealRegion& anchor, std::size_t hole,
                  double doubt) {
-        if (!model_.turns().is_upright(linear)) return;
-        const Eigen::Vector2d stretch = linear.jacobiSvd().singularValues();
-        if (stretch(1) < kLeastForeshortening * stretch(0)) return;
-        Homography map = affine_about(linear, model_.hole(hole).center, anchor.shape.center);
-        std::vector<int> members(model_.holes(), -1);
-        std::vector<Eigen::Vector2d> board, image;
-        for (std::size_t k = 0; k < model_.holes(); ++k) {
-            const IdealRegion* seen = k == hole ? &anchor : nearest(map, k);
-            if (!seen) continue;
-            members[k] = seen->index;
-            board.push_back(model_.hole(k).center);
-            image.push_back(seen->shape.center);
+        if (!model_.turns().is_upright(linear) || !not_from_the_side(linear)) return;
+        const Homography map = affine_about(linear, model_.hole(hole).center, anchor.shape.center);
+        Members all(model_.holes(), &anchor), whole = all;
+        for (std::size_t k = 0; k < model_.holes(); ++k)
+            if (k != hole) look_near(map, k, all[k], whole[k]);
+        add_group(map, anchor, all, doubt);
+        if (whole != all) add_group(map, anchor, whole, doubt);
+    }
+
+    void add_group(Homography map, const IdealRegion& anchor, const Members& members,
+                   double doubt) {
+        std::vector<int> key;
+        int seen = 0;
+        for (const IdealRegion* member : members) {
+            key.push_back(member ? member->index : -1);
+            seen += member ? 1 : 0;
         }
-        const auto seen = static_cast<int>(board.size());
         result_.best_holes = std::max(result_.best_holes, seen);
-        if (seen < min_holes_ || !known_.insert(members).second) return;
+        // One region's turn is told by its hull.
+        const int least = model_.holes() == 1 ? 1 : std::max(2, min_holes_);
+        if (seen < least || !known_.insert(std::move(key)).second) return;
+        std::vector<Eigen::Vector2d> board, image;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            if (!members[k]) continue;
+            board.push_back(model_.hole(k).center);
+            image.push_back(members[k]->shape.center);
+        }
         if (seen >= 3)
             if (const auto better = fit_affine(board, image)) map = *better;
-        TemplateGuess guess;
-        guess.holes_seen = seen;
+        double misfit = 0.0;
         const double size = std::sqrt(anchor.shape.area);
         for (std::size_t k = 0; k < board.size(); ++k)
-            guess.misfit += (map_point(map, board[k]) - image[k]).squaredNorm();
-        guess.misfit = std::sqrt(guess.misfit / seen) / size;
-        if (guess.misfit > kGuessMisfit) return;
-        if (seen == 2) guess.misfit = kGuessMisfit * doubt;
-        if (seen < 4) {
-            board = model_.target().outline;
-            image.clear();
-            for (const auto& p : board) image.push_back(map_point(map, p));
+            misfit += (map_point(map, board[k]) - image[k]).squaredNorm();
+        misfit = std::sqrt(misfit / seen) / size;
+        if (misfit > kGuessMisfit) return;
+        TemplateGuess guess = guess_at(map, model_, seen);
+        guess.misfit = seen == 2 ? kGuessMisfit * doubt : misfit;
+        if (seen >= 4) {
+            guess.board = std::move(board);
+            guess.image = std::move(image);
         }
-        guess.board = std::move(board);
-        guess.image = std::move(image);
         result_.guesses.push_back(std::move(guess));
     }
 
@@ -180,26 +141,33 @@ class Guesser {
             [](const IdealRegion& region, double row) { return region.shape.center.y() < row; });
     }
 
-    const IdealRegion* nearest(const Homography& map, std::size_t hole) const {
+    /// The region that lies most nearly where the map puts a hole, and the one of those that look
+    /// whole; null where there is none.
+    void look_near(const Homography& map, std::size_t hole, const IdealRegion*& any,
+                   const IdealRegion*& whole) const {
         const Eigen::Vector2d expected = map_point(map, model_.hole(hole).center);
         const double area =
             model_.hole(hole).area * std::abs(map.topLeftCorner<2, 2>().determinant());
         const double size = std::sqrt(area);
-        const IdealRegion* best = nullptr;
-        double best_cost = std::numeric_limits<double>::max();
+        any = whole = nullptr;
+        double best = std::numeric_limits<double>::max(), best_whole = best;
         for (auto it = from_row(expected.y() - kGuessReach * size);
              it != regions_.end() && it->shape.center.y() <= expected.y() + kGuessReach * size;
              ++it) {
             const double distance = (it->shape.center - expected).norm() / size;
+            if (distance > kGuessReach) continue;
             const double ratio = std::max(it->shape.area / area, area / it->shape.area);
-            if (distance > kGuessReach || ratio > kGuessAreaRatio) continue;
+            if (ratio > kGuessAreaRatio) continue;
             const double cost = distance + std::log(ratio);
-            if (cost < best_cost) {
-                best_cost = cost;
-                best = &*it;
+            if (cost < best) {
+                best = cost;
+                any = &*it;
+            }
+            if (cost < best_whole && distance < kWholeReach && ratio < kWholeAreaRatio) {
+                best_whole = cost;
+                whole = &*it;
             }
         }
-        return best;
     }
 
     const TemplateModel& model_;
@@ -211,56 +179,42 @@ class Guesser {
     GuessSearch result_;
 };
 
-/// A plate's moments leave its turn open: the turns that let the outline's corners lie on the hull.
-void guess_plate(const IdealRegion& plate, const std::vector<Eigen::Vector2d>& hull,
-                 const TemplateModel& model, std::vector<TemplateGuess>& guesses) {
-    constexpr int kSteps = 60;        // in a full turn
-    constexpr double kOffHull = 0.1;  // of the root of the plate's area
-    const Eigen::Matrix2d unroot = root_of(model.plate().spread).inverse();
-    std::vector<TemplateGuess> turned(kSteps);
-    std::vector<double> off(kSteps, 0.0);
-    for (std::size_t step = 0; step < kSteps; ++step) {
-        const double angle = 2.0 * kPi * static_cast<double>(step) / kSteps;
-        const Eigen::Matrix2d linear = plate.root * turn_by(angle) * unroot;
-        const Homography map = affine_about(linear, model.plate().center, plate.shape.center);
-        turned[step].board = model.target().outline;
-        for (const auto& p : model.target().outline) {
-            turned[step].image.push_back(map_point(map, p));
-            off[step] += distance_to_polygon(hull, turned[step].image.back()) /
-                         static_cast<double>(model.target().outline.size());
-        }
-        const Eigen::Vector2d stretch = linear.jacobiSvd().singularValues();
-        if (!model.turns().is_upright(linear) || stretch(1) < kLeastForeshortening * stretch(0))
-            turned[step].board.clear();
-    }
-    for (std::size_t step = 0; step < kSteps; ++step) {
-        const double before = off[(step + kSteps - 1) % kSteps], after = off[(step + 1) % kSteps];
-        if (!turned[step].board.empty() && off[step] < before && off[step] <= after &&
-            off[step] < kOffHull * std::sqrt(plate.shape.area))
-            guesses.push_back(std::move(turned[step]));
-    }
-}
-
 }  // namespace
+
+TemplateGuess guess_at(const Homography& map, const TemplateModel& model, int holes_seen) {
+    TemplateGuess guess;
+    guess.map = map;
+    guess.holes_seen = holes_seen;
+    guess.board = model.target().outline;
+    for (const auto& p : guess.board) guess.image.push_back(map_point(map, p));
+    return guess;
+}
 
 GuessSearch guess_boards(const RegionSearch& regions, const TemplateModel& model,
                          const CameraModel& camera, int min_holes,
                          const std::function<void()>& check) {
-    Guesser guesser(model, ideal_regions(regions.holes, camera), min_holes);
+    const std::vector<IdealRegion> holes = ideal_regions(regions.holes, camera);
+    Guesser guesser(model, holes, min_holes);
     guesser.group(check);
     GuessSearch search = guesser.take();
     std::stable_sort(
         search.guesses.begin(), search.guesses.end(), [](const auto& a, const auto& b) {
             return a.holes_seen != b.holes_seen ? a.holes_seen > b.holes_seen : a.misfit < b.misfit;
         });
+    const auto by_hull = [&](const IdealRegion& region, const std::vector<ImageRegion>& all,
+                             auto guess, std::vector<TemplateGuess>& guesses) {
+        std::vector<Eigen::Vector2d> hull;
+        for (const auto& p : all[static_cast<std::size_t>(region.index)].hull)
+            if (const auto ideal = camera.undistort(p)) hull.push_back(*ideal);
+        if (hull.size() >= 3) guess(region, hull, model, guesses);
+    };
+    if (min_holes == 1 && model.holes() > 1)
+        for (const IdealRegion& hole : holes)
+            by_hull(hole, regions.holes, guess_by_hole, search.guesses);
     // Plates are few, and say more than holes that may belong to anything.
     std::vector<TemplateGuess> plates;
-    for (const IdealRegion& plate : ideal_regions(regions.plates, camera)) {
-        std::vector<Eigen::Vector2d> hull;
-        for (const auto& p : regions.plates[static_cast<std::size_t>(plate.index)].hull)
-            if (const auto ideal = camera.undistort(p)) hull.push_back(*ideal);
-        if (hull.size() >= 3) guess_plate(plate, hull, model, plates);
-    }
+    for (const IdealRegion& plate : ideal_regions(regions.plates, camera))
+        by_hull(plate, regions.plates, guess_by_plate, plates);
     search.guesses.insert(search.guesses.begin(), plates.begin(), plates.end());
     return search;
 }

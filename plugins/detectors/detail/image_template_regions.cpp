@@ -24,11 +24,16 @@ constexpr double kLargestPlate = 0.7;  ///< of the image
 constexpr std::array<double, 2> kHoleRoundness{0.88, 1.3};
 constexpr std::array<double, 2> kPlateRoundness{0.95, 1.12};
 
+struct FoundRegion {
+    ImageRegion region;
+    std::vector<cv::Point> contour;
+};
+
 struct RegionKind {
     std::vector<double> roundness;  ///< of the shapes that are looked for
     std::array<double, 2> ratio{};
     double least_area = 0.0, most_area = 0.0;
-    std::vector<ImageRegion> found = {};
+    std::vector<FoundRegion> found = {};
 };
 
 bool region_before(const ImageRegion& a, const ImageRegion& b) {
@@ -59,7 +64,7 @@ class RegionCollector {
     RegionSearch take() const { return {merged(holes_), merged(plates_), borders_}; }
 
    private:
-    void judge(const std::vector<cv::Point>& contour, RegionKind& kind) {
+    void judge(std::vector<cv::Point>& contour, RegionKind& kind) {
         // A contour of n points encloses at most n^2 / (4 pi).
         const double points = static_cast<double>(contour.size());
         if (points < 8.0 || points * points < 6.0 * kind.least_area) return;
@@ -77,20 +82,20 @@ class RegionCollector {
             std::any_of(kind.roundness.begin(), kind.roundness.end(), [&](double wanted) {
                 return roundness > kind.ratio[0] * wanted && roundness < kind.ratio[1] * wanted;
             });
-        if (!alike) return;
-        if (&kind == &plates_) {
-            cv::convexHull(contour, hull_);
-            for (const cv::Point& p : hull_) region.hull.emplace_back(p.x, p.y);
-        }
-        kind.found.push_back(std::move(region));
+        if (alike) kind.found.push_back({std::move(region), std::move(contour)});
     }
 
     /// Versions of nearly the same place and size are one region: their mean.
     static std::vector<ImageRegion> merged(const RegionKind& kind) {
-        std::vector<ImageRegion> order = kind.found;
-        std::stable_sort(order.begin(), order.end(), region_before);
+        std::vector<const FoundRegion*> order;
+        for (const FoundRegion& found : kind.found) order.push_back(&found);
+        std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+            return region_before(a->region, b->region);
+        });
         std::vector<ImageRegion> kept;
-        for (const ImageRegion& region : order) {
+        std::vector<cv::Point> hull;
+        for (const FoundRegion* found : order) {
+            const ImageRegion& region = found->region;
             const double side = std::sqrt(region.shape.area);
             ImageRegion* twin = nullptr;
             for (auto k = kept.rbegin(); k != kept.rend() && !twin; ++k) {
@@ -103,6 +108,8 @@ class RegionCollector {
             }
             if (!twin) {
                 kept.push_back(region);
+                cv::convexHull(found->contour, hull);
+                for (const cv::Point& p : hull) kept.back().hull.emplace_back(p.x, p.y);
                 continue;
             }
             const double share = 1.0 / (twin->votes + 1.0);
@@ -120,7 +127,6 @@ class RegionCollector {
     int borders_ = 0;
     std::vector<std::vector<cv::Point>> contours_;
     std::vector<cv::Vec4i> hierarchy_;
-    std::vector<cv::Point> hull_;
 };
 
 }  // namespace

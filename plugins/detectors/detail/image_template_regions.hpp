@@ -16,7 +16,7 @@ namespace petal {
 struct ImageRegion {
     TemplateShape shape;                ///< px, px^2
     int votes = 1;                      ///< binary images in which it was seen
-    std::vector<Eigen::Vector2d> hull;  ///< of a plate; none for a hole
+    std::vector<Eigen::Vector2d> hull;  ///< of the first of them
 };
 
 struct RegionSearch {

@@ -7,9 +7,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "detectors/detail/image_binaries.hpp"
 #include "detectors/detail/image_template_guesses.hpp"
+#include "detectors/detail/image_template_look.hpp"
 #include "detectors/detail/image_template_regions.hpp"
 #include "detectors/image_template.hpp"
 #include "petal/error.hpp"
@@ -21,8 +23,11 @@ namespace {
 /// Guesses looked at, the likeliest first, and fits begun; far more than there can be boards.
 constexpr std::size_t kMostGuesses = 1500;
 constexpr int kMostFits = 150;
-/// What a hole that was seen adds to a glance's figure.
-constexpr double kHoleSeen = 0.25;
+/// What PlaceLook says of a guess that is glanced at.
+constexpr double kLeastLook = 0.25;
+/// What a hole that was seen adds to a glance's figure. It decides between places that look alike,
+/// no more: four parts of holes, or four bricks, are worth less than two whole holes.
+constexpr double kHoleSeen = 0.05;
 /// A coarse fit with fewer edges in place is not worth a fine one.
 constexpr double kCoarseInPlace = 0.15;
 constexpr std::size_t kMostRejected = 30;
@@ -63,15 +68,14 @@ class BoardSearch {
     std::vector<Attempt> attempts(const GuessSearch& search,
                                   const std::function<void()>& check) const {
         std::vector<Attempt> all;
-        for (std::size_t i = 0; i < std::min(search.guesses.size(), kMostGuesses); ++i) {
+        for (const TemplateGuess* guess : worth_a_glance(search.guesses, check)) {
             check();
-            const TemplateGuess& guess = search.guesses[i];
             // A plate counts as all its holes.
             const double seen =
-                guess.holes_seen > 0 ? guess.holes_seen : static_cast<double>(model_.holes());
-            for (const Eigen::Isometry3d& pose : guess_poses(guess, camera_)) {
+                guess->holes_seen > 0 ? guess->holes_seen : static_cast<double>(model_.holes());
+            for (const Eigen::Isometry3d& pose : guess_poses(*guess, camera_)) {
                 const double look = glance({pose}, edges_, model_, camera_, noise_, params_);
-                if (look > 0.0) all.push_back({{pose}, guess.holes_seen, look + kHoleSeen * seen});
+                if (look > 0.0) all.push_back({{pose}, guess->holes_seen, look + kHoleSeen * seen});
             }
         }
         std::stable_sort(all.begin(), all.end(),
@@ -103,6 +107,25 @@ class BoardSearch {
     }
 
    private:
+    /// Before walls of bricks many thousand groups lie as holes do, some better than those of the
+    /// board; the image between them tells.
+    std::vector<const TemplateGuess*> worth_a_glance(const std::vector<TemplateGuess>& guesses,
+                                                     const std::function<void()>& check) const {
+        const PlaceLook place(edges_, model_, camera_, noise_);
+        std::vector<std::pair<double, const TemplateGuess*>> looks;
+        for (std::size_t i = 0; i < guesses.size(); ++i) {
+            if (i % 256 == 0) check();
+            const double look = place.at(guesses[i].map);
+            if (look > kLeastLook) looks.emplace_back(look, &guesses[i]);
+        }
+        std::stable_sort(looks.begin(), looks.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::vector<const TemplateGuess*> worth;
+        for (std::size_t i = 0; i < std::min(looks.size(), kMostGuesses); ++i)
+            worth.push_back(looks[i].second);
+        return worth;
+    }
+
     static bool known(const Eigen::Vector2d& place, const TemplateSearch& search) {
         return std::any_of(search.boards.begin(), search.boards.end(), [&](const auto& board) {
             return (board.middle - place).norm() < board.size_px;

@@ -116,6 +116,13 @@ class Photo {
         return *this;
     }
 
+    /// Anything else: `paint` gets the sharp pixels (CV_64F).
+    template <typename Paint>
+    Photo& draw(Paint paint) {
+        paint(pixels_);
+        return *this;
+    }
+
     CameraImage take(double blur_px, double noise, const std::string& label = "CAMERA") const {
         cv::Mat blurred = pixels_.clone();
         if (blur_px > 0.0) cv::GaussianBlur(pixels_, blurred, cv::Size(), blur_px);
