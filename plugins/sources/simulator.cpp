@@ -88,7 +88,7 @@ void SimulatorSource::run(Run& run) {
     if (params_.rig_seed >= 0) rig_random.seed(static_cast<std::uint64_t>(params_.rig_seed));
     if (!rig_ || params_.rig == "each") rig_ = file.make_rig(params_.lidar, rig_random);
 
-    simulation::Scene scene = file.make_scene(capture_, run.rng());
+    simulation::Scene scene = file.make_scene(capture_, run.rng(), rig_->boards_seed);
     if (params_.duration > 0.0) scene.duration = params_.duration;
     if (++capture_ == file.captures()) {
         capture_ = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "petal/calibration/angles.hpp"
+#include "simulation/scene/board_cut.hpp"
 #include "simulation/scene/object_keys.hpp"
 #include "simulation/scene/placement.hpp"
 #include "simulation/scene/solids.hpp"
@@ -45,7 +46,7 @@ Eigen::Vector3d read_spread(const JsonValue& node, double most, const char* unit
 
 BoardPlacement::BoardPlacement(const JsonValue& node) : node_(node) {
     node.only({"target", "centre", "distance", "azimuth_deg", "elevation_deg", "yaw_deg",
-               "pitch_deg", "roll_deg", "stands", "raise", "cord", "vary"});
+               "pitch_deg", "roll_deg", "stands", "raise", "cord", "cut_sigma", "vary"});
     const auto name = node.find("target");
     const std::string target = name ? name->text() : "four_square_holes_500mm";
     try {
@@ -65,6 +66,7 @@ BoardPlacement::BoardPlacement(const JsonValue& node) : node_(node) {
     angles_deg_ = read_angles_deg(node);
     read_place();
     read_variation();
+    if (const auto sigma = node.find("cut_sigma")) cut_sigma_ = sigma->number(0.0, 0.005, "m");
     if (const auto raise = node.find("raise")) {
         if (stands_ != Stands::floor) raise->fail("goes with \"stands\": \"floor\" alone");
         raise_ = raise->number(0.0, 5.0, "m");
@@ -137,6 +139,11 @@ SceneBoard BoardPlacement::draw(double floor, Engine& engine) const {
         node_.fail("reaches " + std::to_string(under) + " m under the floor (z = " +
                    std::to_string(floor) + " m): raise it, or lower the key floor");
     return board;
+}
+
+Target BoardPlacement::cut(std::uint64_t seed) const {
+    Engine engine(seed);
+    return cut_board(target_, cut_sigma_, engine);
 }
 
 void BoardPlacement::add_stand(World& world, const SceneBoard& board, double floor) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,8 @@ class BoardPlacement {
     explicit BoardPlacement(const JsonValue& node);
 
     SceneBoard draw(double floor, Engine& engine) const;
+    /// What was made of the target: the same board for the same seed, wherever it stands.
+    Target cut(std::uint64_t seed) const;
     /// What holds the board where it is, if anything.
     void add_stand(World& world, const SceneBoard& board, double floor) const;
 
@@ -41,8 +44,9 @@ class BoardPlacement {
     Eigen::Vector3d angles_deg_ = Eigen::Vector3d::Zero();  ///< yaw, pitch, roll
     Eigen::Vector3d vary_position_ = Eigen::Vector3d::Zero();
     Eigen::Vector3d vary_angles_deg_ = Eigen::Vector3d::Zero();
-    double raise_ = 0.0;  ///< m: of its lowest corner above the floor
-    double cord_ = 0.6;   ///< m
+    double raise_ = 0.0;      ///< m: of its lowest corner above the floor
+    double cord_ = 0.6;       ///< m
+    double cut_sigma_ = 0.0;  ///< m: see cut_board()
 };
 
 }  // namespace petal::simulation

@@ -79,7 +79,7 @@ void CapturePlan::read_motion(const JsonValue& motion) {
     if (const auto begins = motion.find("begins")) motion_.begins = begins->number(0.0, 600.0, "s");
 }
 
-Scene CapturePlan::draw(const RigPlan& rig, Engine& engine) const {
+Scene CapturePlan::draw(const RigPlan& rig, Engine& engine, std::uint64_t boards_seed) const {
     Scene scene;
     scene.name = name_;
     scene.light = light_;
@@ -119,7 +119,7 @@ Scene CapturePlan::draw(const RigPlan& rig, Engine& engine) const {
             " placements; move it towards the middle or farther away, or let rig vary less");
 
     for (std::size_t i = 0; i < boards_.size(); ++i) {
-        add_board(scene.world, scene.boards[i].target, scene.boards[i].T_world_board);
+        add_board(scene.world, boards_[i].cut(mix(boards_seed, i)), scene.boards[i].T_world_board);
         boards_[i].add_stand(scene.world, scene.boards[i], floor_);
     }
     const Surroundings around{floor_, scene.boards, engine};

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,7 +26,8 @@ class CapturePlan {
 
     /// Draws boards until every one lies in an image of `rig`, for a bounded number of times.
     /// \throws Error naming the board and by how much it misses.
-    Scene draw(const RigPlan& rig, Engine& engine) const;
+    /// `boards_seed`: see Rig.
+    Scene draw(const RigPlan& rig, Engine& engine, std::uint64_t boards_seed) const;
 
     std::vector<std::filesystem::path> target_files() const;
 

@@ -107,6 +107,7 @@ Rig RigPlan::draw(const std::filesystem::path& lidar, Engine& engine) const {
         camera.T_camera_lidar = T_lidar_camera.inverse();
         rig.cameras.push_back(std::move(camera));
     }
+    rig.boards_seed = engine();
     return rig;
 }
 

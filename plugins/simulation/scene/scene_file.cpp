@@ -146,12 +146,12 @@ Rig SceneFile::make_rig(const fs::path& lidar, Rng& rng) const {
     return content_->rig->draw(lidar, rng);
 }
 
-Scene SceneFile::make_scene(std::size_t index, Rng& rng) const {
+Scene SceneFile::make_scene(std::size_t index, Rng& rng, std::uint64_t boards_seed) const {
     if (index >= content_->captures.size())
         throw Error("scene " + content_->name + " has " +
                     std::to_string(content_->captures.size()) + " captures, none with the number " +
                     std::to_string(index));
-    return content_->captures[index].draw(*content_->rig, rng);
+    return content_->captures[index].draw(*content_->rig, rng, boards_seed);
 }
 
 }  // namespace petal::simulation

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -31,11 +32,13 @@ struct SceneCamera {
     mrpt::img::TCamera recorded_intrinsics() const;
 };
 
-/// The sensors on their mounting: what stays the same from scene to scene.
+/// The sensors on their mounting and how the boards are cut: what stays the same from scene to
+/// scene.
 struct Rig {
     std::string lidar_label = "LIDAR";
     LidarDevice lidar;
     std::vector<SceneCamera> cameras;
+    std::uint64_t boards_seed = 0;  ///< of the errors of boards whose "cut_sigma" is not 0
 };
 
 /// One still capture, ready to be simulated.
@@ -69,8 +72,9 @@ class SceneFile {
     /// A rig within the file's tolerances around its nominal mounting. `lidar` names another sensor
     /// profile than the file's; empty: the file's.
     Rig make_rig(const std::filesystem::path& lidar, Rng& rng) const;
-    /// Capture `index` with its random placement.
-    Scene make_scene(std::size_t index, Rng& rng) const;
+    /// Capture `index` with its random placement. The boards of captures with one `boards_seed` are
+    /// the same ones.
+    Scene make_scene(std::size_t index, Rng& rng, std::uint64_t boards_seed = 0) const;
 
    private:
     SceneFile();
