@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "detectors/detail/lidar_template_background.hpp"
+#include "detectors/detail/lidar_template_covariance.hpp"
 #include "detectors/detail/lidar_template_silent.hpp"
 
 namespace petal {
@@ -32,8 +33,6 @@ constexpr std::size_t kLeastRays = 60;
 /// Along its level axis a beam is narrower than the wall looks at 20 deg; along its upright axis
 /// far wider, and what little the wall sends back makes no hit.
 constexpr double kWallLevelShare = 0.85, kWallUprightShare = 0.15, kWallShareSigma = 0.15;
-constexpr double kLeastCommon = 0.0002;   ///< m, of a side
-constexpr double kFitLineFreedoms = 5.0;  ///< x, y, turn and both shifts
 
 using Mask = std::array<bool, kPlateParameters>;
 
@@ -143,52 +142,6 @@ void choose_rays(const PlateShape& shape, const RayBundle& bundle, std::size_t s
     }
 }
 
-/// The error that the rays of each side share, from how the sides scatter: opposite sides moved
-/// alike shift the board, moved unlike they make holes smaller.
-double common_of(const PlateShape& shape, const PlateEvaluation& at) {
-    double shifts = 0.0, pairs = -3.0, all = 0.0, used = -kFitLineFreedoms, noise = 0.0,
-           count = 0.0;
-    for (std::size_t s = 0; s < at.sides.size(); ++s) {
-        const PlateEvaluation::Side& side = at.sides[s];
-        if (!(side.information > 0.0)) continue;
-        const double mean = side.score / side.information;
-        all += mean * mean;
-        used += 1.0;
-        count += 1.0;
-        noise += 1.0 / side.information;
-        const int other = shape.opposite(s);
-        if (other <= static_cast<int>(s)) continue;
-        const PlateEvaluation::Side& across = at.sides[static_cast<std::size_t>(other)];
-        if (!(across.information > 0.0)) continue;
-        // Both count into the plate, so a shift of the board is half their difference.
-        const double shift = 0.5 * (mean - across.score / across.information);
-        shifts += shift * shift;
-        pairs += 1.0;
-    }
-    if (count < 1.0) return kLeastCommon;
-    double variance = all / std::max(used, 1.0);
-    if (pairs > 0.0) variance = (2.0 * shifts + variance) / (pairs + 1.0);
-    return std::max(std::sqrt(std::max(variance - noise / count, 0.0)), kLeastCommon);
-}
-
-/// Covariance of all parameters: sides weigh as their common error allows, the plane by the
-/// plate's own points.
-PlateMatrix covariance_of(const PlateShape& shape, const PlateFit& fit, const PlatePriors& priors,
-                          bool stretches) {
-    const PlateEvaluation at =
-        evaluate_plate(shape, fit.state, priors, fit.zone, PlateScores::gathered);
-    PlateMatrix information = at.observed;
-    information.block<3, 3>(kRhoZ, kRhoZ) += fit.plane.information;
-    if (!stretches)
-        for (int axis = 0; axis < 2; ++axis) information(kStretchX + axis, kStretchX + axis) = 1e12;
-    PlateMatrix covariance = information.ldlt().solve(PlateMatrix::Identity());
-    // What the sides share: each side's shift into the plate moves every parameter.
-    PlateMatrix shared = PlateMatrix::Zero();
-    for (const PlateEvaluation::Side& side : at.sides) shared += side.pull * side.pull.transpose();
-    covariance += fit.side_common * fit.side_common * covariance * shared * covariance;
-    return 0.5 * (covariance + covariance.transpose());
-}
-
 Eigen::Vector2d wall_seen(const PlateShape& shape) {
     return shape.thickness() * Eigen::Vector2d(kWallLevelShare, kWallUprightShare);
 }
@@ -250,23 +203,24 @@ bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays
     const PlateEvaluation at =
         evaluate_plate(shape, state, priors, fit.zone, PlateScores::gathered);
     fit.side_common = common_of(shape, at);
-    const PlateMatrix covariance = covariance_of(shape, fit, priors, false);
+    const PlateMatrix covariance = plate_covariance(at, fit.plane, fit.side_common, false);
     fit.covariance = covariance.topLeftCorner<6, 6>();
     fit.shift_sigma = covariance.diagonal().segment<2>(kShiftLevel).cwiseMax(0.0).cwiseSqrt();
     fit.gain = gain_over_share(fit.zone, at.rays_value);
 
-    PlateFit other = fit;
+    PlateState other = state;
     Mask stretched = full;
     stretched[kStretchX] = stretched[kStretchY] = true;
-    if (climb(shape, priors, fit.zone, stretched, kFitSteps, other.state)) {
-        fit.stretch = other.state.stretch;
-        other.side_common = common_of(
-            shape, evaluate_plate(shape, other.state, priors, fit.zone, PlateScores::gathered));
-        fit.stretch_sigma = covariance_of(shape, other, priors, true)
-                                .diagonal()
-                                .segment<2>(kStretchX)
-                                .cwiseMax(0.0)
-                                .cwiseSqrt();
+    if (climb(shape, priors, fit.zone, stretched, kFitSteps, other)) {
+        fit.stretch = other.stretch;
+        const PlateEvaluation stretched_at =
+            evaluate_plate(shape, other, priors, fit.zone, PlateScores::gathered);
+        fit.stretch_sigma =
+            plate_covariance(stretched_at, fit.plane, common_of(shape, stretched_at), true)
+                .diagonal()
+                .segment<2>(kStretchX)
+                .cwiseMax(0.0)
+                .cwiseSqrt();
     }
     fit.rays = std::move(rays);
     return true;

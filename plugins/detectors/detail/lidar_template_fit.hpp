@@ -31,7 +31,7 @@ struct PlateFit {
     PlaneOfPlate plane;                      ///< from the plate's own points
     Matrix6d covariance = Matrix6d::Zero();  ///< of Exp(rho, phi) in the board's frame
     Eigen::Vector2d shift_sigma = Eigen::Vector2d::Zero();  ///< m
-    double side_common = 0.0;  ///< m, 1 sigma: error that a side's rays share
+    Eigen::Vector2d side_common = Eigen::Vector2d::Zero();  ///< m, 1 sigma: see common_of()
     double gain = 0.0;  ///< how much better the template tells hits from misses than their share
                         ///< alone does: 0 not at all, 1 each one
     Eigen::Vector2d stretch = Eigen::Vector2d::Zero();  ///< of the holes, fitted afterwards

@@ -195,6 +195,7 @@ class PlateSum {
         side.score += score;
         side.information += observed;
         side.pull += observed * jacobian;
+        side.across += observed * edge.across.cwiseAbs2();
     }
 
     PlateEvaluation of(const ToldRays& rays, std::size_t begin, std::size_t end) const {
@@ -232,6 +233,7 @@ void add_up(const PlateEvaluation& part, PlateEvaluation& sum) {
         sum.sides[s].score += part.sides[s].score;
         sum.sides[s].information += part.sides[s].information;
         sum.sides[s].pull += part.sides[s].pull;
+        sum.sides[s].across += part.sides[s].across;
     }
 }
 

@@ -130,6 +130,10 @@ struct PlateEvaluation {
     struct Side {
         double score = 0.0, information = 0.0;   ///< of a shift of this side alone, into the plate
         PlateVector pull = PlateVector::Zero();  ///< what it does to the gradient
+        /// How much each axis of the beam passes it, squared, times the information.
+        Eigen::Vector2d across = Eigen::Vector2d::Zero();
+        /// The same as shares of 1. \pre information > 0
+        Eigen::Vector2d share() const { return across / across.sum(); }
     };
     std::vector<Side> sides;
 };
