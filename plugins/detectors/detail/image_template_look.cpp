@@ -22,8 +22,7 @@ constexpr double kLeastStep = 2.0;  ///< of the noise
 
 /// The value that `part` of them lie below.
 double value_at(std::vector<double>& values, double part) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(
-                                            part * static_cast<double>(values.size() - 1) + 0.5);
+    const auto place = values.begin() + std::lround(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), place, values.end());
     return *place;
 }
