@@ -13,6 +13,7 @@
 #include "detectors/detail/image_template_guesses.hpp"
 #include "detectors/detail/image_template_look.hpp"
 #include "detectors/detail/image_template_regions.hpp"
+#include "detectors/detail/image_template_twin.hpp"
 #include "detectors/image_template.hpp"
 #include "petal/error.hpp"
 
@@ -102,6 +103,7 @@ class BoardSearch {
             return;
         }
         if (known(board.middle, search)) return;
+        consider_other_tilt(board);
         set_upright(board.fit, model_, camera_);
         search.boards.push_back(std::move(board));
     }
@@ -124,6 +126,17 @@ class BoardSearch {
         for (std::size_t i = 0; i < std::min(looks.size(), kMostGuesses); ++i)
             worth.push_back(looks[i].second);
         return worth;
+    }
+
+    void consider_other_tilt(TemplateBoard& board) const {
+        const FittedBoard coarse = fit_.coarse(mirrored(board.fit.pose, model_));
+        if (!coarse.converged) return;
+        const FittedBoard other = fit_.fine(coarse);
+        if (!other.converged) return;
+        const TemplateVerdict verdict =
+            judge_board(other, edges_, model_, camera_, noise_, params_);
+        if (!verdict.rejected.empty()) return;
+        board.fit = of_two_tilts(board.fit, other, model_);
     }
 
     static bool known(const Eigen::Vector2d& place, const TemplateSearch& search) {
