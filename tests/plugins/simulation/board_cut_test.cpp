@@ -13,7 +13,7 @@
 namespace petal::simulation {
 namespace {
 
-constexpr double kSigma = 0.0002;  // m
+constexpr double kCutSigma = 0.0002;  // m
 
 /// The sum of squares of how far a rectangle's sides lie off another's, and how parallel they are.
 double squares_off(const std::vector<Eigen::Vector2d>& cut,
@@ -36,25 +36,25 @@ TEST(BoardCut, MovesEverySideByItsOwnError) {
     double squares = 0.0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         Engine engine(seed);
-        const Target cut = cut_board(target, kSigma, engine);
+        const Target cut = cut_board(target, kCutSigma, engine);
         ASSERT_EQ(cut.holes.size(), 4U);
         squares += squares_off(cut.outline, target.outline);
         for (std::size_t k = 0; k < 4; ++k) squares += squares_off(cut.holes[k], target.holes[k]);
     }
-    EXPECT_NEAR(std::sqrt(squares / 2000.0), kSigma, 0.05 * kSigma);
+    EXPECT_NEAR(std::sqrt(squares / 2000.0), kCutSigma, 0.05 * kCutSigma);
 }
 
 TEST(BoardCut, RoundHolesMoveAndChangeTheirSize) {
     const Target target = load_target("four_round_holes_aruco");
     Engine engine(3);
-    const Target cut = cut_board(target, kSigma, engine);
+    const Target cut = cut_board(target, kCutSigma, engine);
     for (std::size_t k = 0; k < target.round_holes.size(); ++k) {
         const double moved = (cut.round_holes[k].centre - target.round_holes[k].centre).norm();
         const double larger = std::abs(cut.round_holes[k].radius - target.round_holes[k].radius);
         EXPECT_GT(moved, 0.0);
-        EXPECT_LT(moved, 6.0 * kSigma);
+        EXPECT_LT(moved, 6.0 * kCutSigma);
         EXPECT_GT(larger, 0.0);
-        EXPECT_LT(larger, 5.0 * kSigma);
+        EXPECT_LT(larger, 5.0 * kCutSigma);
     }
 }
 
