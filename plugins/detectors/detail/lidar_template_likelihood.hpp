@@ -141,9 +141,11 @@ struct PlateEvaluation {
 /// The logarithm of the likelihood of what the rays told:
 ///
 ///     P(hit) = e + (1 - 2 e) / (1 + exp(-D / w)),
-///     D = d(u) + |a_l . n| (s_l - b g_l) + |a_u . n| (s_u - b g_u),   w^2 = (a_l . n)^2 w_l^2 +
-///     (a_u . n)^2 w_u^2, sum over hits log P + sum over misses log(1 - P) - sum over silent places
-///     rays P,
+///     D = d(u) + |a_l . n| (s_l - b g_l) + |a_u . n| (s_u - b g_u),
+///
+///     w^2 = (a_l . n)^2 w_l^2 + (a_u . n)^2 w_u^2,
+///
+///     sum over hits log P + sum over misses log(1 - P) - sum over silent places rays P,
 ///
 /// d the distance of the crossing u to the template's edge (positive on the plate, of the front or
 /// behind a hole's wall the back face), n the edge's normal, a_l and a_u the beam's axes on the

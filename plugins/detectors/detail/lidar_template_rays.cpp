@@ -22,11 +22,10 @@ constexpr double kLeastHitSigmas = 1.5;    ///< ... or fewer, where something is
 constexpr double kNearestShare = 0.1;      ///< of the misses: the nearest surface behind
 constexpr std::size_t kRaysLeastPoints = 30;
 constexpr int kPlaneFits = 4;
-constexpr std::size_t kLookAtShare = 3;
+constexpr std::size_t kLookAtShare = 3;  ///< of the points in such directions, one in three crosses
 constexpr double kLeastIntensity = 1e-3;  ///< of 1
 
-/// Points in directions that may cross a circle, of which those between `begin` and `end` come from
-/// one tile.
+/// The points in directions that may cross a circle about a place.
 struct NearRays {
     Eigen::Vector3d axis;
     double angle = 0.0;  ///< rad
@@ -93,6 +92,7 @@ RayBundle gather_rays(const CloudDirections& directions, const Eigen::Isometry3d
     bundle.T_lidar_plane = T_lidar_plane;
     // Of many rays only as many are looked at as hold `most`, were a third of them to cross.
     const NearRays near(T_lidar_plane.translation(), radius);
+    most = std::max<std::size_t>(most, 1);
     const std::size_t look = near.count(directions) / kLookAtShare / most + 1;
     const std::vector<std::uint32_t> crossing =
         crossing_rays(directions, near, look, T_lidar_plane, radius);
