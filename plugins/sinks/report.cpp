@@ -66,7 +66,7 @@ from. Wire the same ports as those of `sink.result`, or the two will tell differ
 the run is told by `sink.result` alone.
 
 The 3D view shows `view_points` at most of `cloud`, over all scenes, drawn by lot with the run's seed, and says how many of how many. A
-point has the photo's colour where it projects into one and no other point hides it (see `Occlusion`: nearest depth in cells of some
+point has the photo's colour where it projects into one and no other point that is shown hides it (nearest depth in cells of some
 pixels). `edges` are the points that are drawn on the photos, best those of a filter that leaves edges; without it points of `cloud`.
 
 The same inputs and seed give the same bytes. The clouds of all scenes are held until the end of the run.)");

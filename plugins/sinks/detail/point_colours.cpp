@@ -23,14 +23,31 @@ constexpr double kFullCell = 4.0;  // points: then hardly a cell of a surface st
 PointColours::PointColours(const Run& run, const Cloud& cloud, const CameraImage& image,
                            const Eigen::Isometry3d& T_camera_lidar, const Occlusion& occlusion)
     : photo_(image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY)), occlusion_(occlusion) {
-    const CameraModel model(image.camera);
+    const auto itself = [](std::size_t i) { return i; };
+    project(run, cloud, cloud.size(), itself, image.camera, T_camera_lidar);
+}
+
+PointColours::PointColours(const Run& run, const Cloud& cloud,
+                           const std::vector<std::size_t>& points, const CameraImage& image,
+                           const Eigen::Isometry3d& T_camera_lidar, const Occlusion& occlusion)
+    : photo_(image.image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY)), occlusion_(occlusion) {
+    const auto chosen = [&points](std::size_t k) { return points[k]; };
+    project(run, cloud, points.size(), chosen, image.camera, T_camera_lidar);
+}
+
+template <class IndexOf>
+void PointColours::project(const Run& run, const Cloud& cloud, std::size_t count,
+                           const IndexOf& index_of, const mrpt::img::TCamera& camera,
+                           const Eigen::Isometry3d& T_camera_lidar) {
+    const CameraModel model(camera);
     const auto& xs = cloud.points->getPointsBufferRef_x();
     const auto& ys = cloud.points->getPointsBufferRef_y();
     const auto& zs = cloud.points->getPointsBufferRef_z();
-    seen_.resize(cloud.size());
+    seen_.resize(count);
     constexpr std::size_t kPiece = 16384;
-    for_pieces(run, cloud.size(), kPiece, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
+    for_pieces(run, count, kPiece, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::size_t i = index_of(k);
             const Eigen::Vector3d p = T_camera_lidar * Eigen::Vector3d(xs[i], ys[i], zs[i]);
             if (!p.allFinite()) continue;
             const auto pixel = model.project(p);
@@ -40,10 +57,10 @@ PointColours::PointColours(const Run& run, const Cloud& cloud, const CameraImage
             // Written so that NaN is outside too.
             if (!(column >= 0.0 && row >= 0.0 && column < photo_.cols && row < photo_.rows))
                 continue;
-            seen_[i].pixel =
+            seen_[k].pixel =
                 static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(photo_.cols) +
                 static_cast<std::uint32_t>(column);
-            seen_[i].depth = static_cast<float>(p.z());
+            seen_[k].depth = static_cast<float>(p.z());
         }
     });
     if (occlusion_.cell_px > 0) {

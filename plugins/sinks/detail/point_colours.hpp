@@ -40,6 +40,11 @@ class PointColours {
     /// \throws Error where the intrinsics are no camera; Cancelled.
     PointColours(const Run& run, const Cloud& cloud, const CameraImage& image,
                  const Eigen::Isometry3d& T_camera_lidar, const Occlusion& occlusion = {});
+    /// The same for some of the points, which alone hide each other: what is told of point k is
+    /// then of the cloud's points[k].
+    PointColours(const Run& run, const Cloud& cloud, const std::vector<std::size_t>& points,
+                 const CameraImage& image, const Eigen::Isometry3d& T_camera_lidar,
+                 const Occlusion& occlusion = {});
 
     /// Of the nearest pixel. None where the point is not finite, lies outside the photo or behind
     /// the camera, or is hidden.
@@ -60,6 +65,10 @@ class PointColours {
     };
     static constexpr std::uint32_t kOutside = 0xFFFFFFFF;
 
+    /// Projects so many points of the cloud, index_of(0), index_of(1), ..., and fills the grid.
+    template <class IndexOf>
+    void project(const Run& run, const Cloud& cloud, std::size_t count, const IndexOf& index_of,
+                 const mrpt::img::TCamera& camera, const Eigen::Isometry3d& T_camera_lidar);
     /// Fills the grid of nearest depths; returns how many points an occupied cell holds on average.
     double fill_grid(int cell_px);
     std::size_t cell_of(std::uint32_t pixel) const;

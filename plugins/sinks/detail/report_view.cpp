@@ -123,16 +123,17 @@ ViewJson scene_view_json(const Run& run, const Extrinsics& extrinsics, const Sce
     if (scene.images)
         for (const CameraImage& image : scene.images->cameras)
             if (const CameraExtrinsics* solved = extrinsics_of(extrinsics, image.label))
-                cameras.emplace_back(run, cloud, image, solved->T_camera_lidar);
+                cameras.emplace_back(run, cloud, drawn, image, solved->T_camera_lidar);
     const Greys greys(cloud, drawn);
     std::vector<ShownPoint> points;  // seen ones in front
     std::vector<ShownPoint> unseen;
     points.reserve(drawn.size());
-    for (const std::size_t i : drawn) {
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+        const std::size_t i = drawn[k];
         if (!is_finite(cloud, i)) continue;
         std::optional<PointColour> colour;
         for (const PointColours& camera : cameras)
-            if (!colour) colour = camera.of(i);
+            if (!colour) colour = camera.of(k);
         float x = 0.0F, y = 0.0F, z = 0.0F;
         cloud.points->getPoint(i, x, y, z);
         if (colour)

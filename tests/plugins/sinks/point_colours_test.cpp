@@ -91,6 +91,25 @@ TEST(PointColoursTest, WhatLiesBehindANearSurfaceGetsNone) {
     });
 }
 
+TEST(PointColoursTest, OfSomePointsTheseAloneHideEachOther) {
+    with_points({{-0.1F, 0.0F, 1.0F}, {0.1F, 0.0F, 1.0F}, {0.3F, 0.0F, 3.0F}, {9.0F, 0.0F, 1.0F}},
+                [](const petal::Run& run, const Cloud& cloud) {
+                    const CameraImage image = two_halves();
+                    const auto pose = Eigen::Isometry3d::Identity();
+                    Occlusion fine;
+                    fine.cell_px = 4;
+                    EXPECT_TRUE(PointColours(run, cloud, image, pose, fine).hidden(2));
+                    const PointColours without(run, cloud, {0, 2, 3}, image, pose, fine);
+                    ASSERT_TRUE(without.of(0) && without.of(1));
+                    EXPECT_EQ(without.of(0)->red, 255);
+                    EXPECT_EQ(without.of(1)->blue, 255);
+                    EXPECT_FALSE(without.of(2));
+                    const PointColours with(run, cloud, {1, 2}, image, pose, fine);
+                    EXPECT_TRUE(with.of(0));
+                    EXPECT_TRUE(with.hidden(1));
+                });
+}
+
 TEST(PointColoursTest, CellsGrowWhereAPlateHasFewPoints) {
     // A point each 0.1 m at 1 m is one each 10 px: cells of 4 px would let through what lies
     // between them.
