@@ -3,9 +3,12 @@
 
 #include "detectors/lidar_template.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "detectors/detail/lidar_template_patches.hpp"
@@ -60,17 +63,26 @@ void LidarTemplate::run(Run& run) {
     std::vector<PlateAttempt> attempts;
     PlateCandidate nearest;
     if (p_.evidence != "edges") {
-        PlateSearch search(cloud, target.all);
-        if (planes)
-            for (const Plane& plane : planes->planes)
-                if (const auto centre = centre_of(plane)) search.try_patch(*centre, plane.normal);
-        std::vector<PlateCandidate> plates = search.find(run.rng(), poll);
-        nearest = search.nearest_miss();
-        run.log(LogLevel::info, printed("%zu plates of the target's size in %zu cells",
-                                        plates.size(), search.cell_count()));
+        std::vector<PlateCandidate> plates;
+        std::optional<CloudDirections> by_direction;
+        std::size_t cells = 0;
+        const auto find_plates = [&] {
+            PlateSearch search(cloud, target.all);
+            cells = search.cell_count();
+            if (planes)
+                for (const Plane& plane : planes->planes)
+                    if (const auto centre = centre_of(plane))
+                        search.try_patch(*centre, plane.normal);
+            plates = search.find(run.rng(), poll);
+            nearest = search.nearest_miss();
+        };
+        on_run_threads(
+            run, [&] { tbb::parallel_invoke(find_plates, [&] { by_direction.emplace(cloud); }); });
+        const CloudDirections& directions = *by_direction;
+        run.log(LogLevel::info,
+                printed("%zu plates of the target's size in %zu cells", plates.size(), cells));
         if (plates.size() > static_cast<std::size_t>(p_.max_candidates))
             plates.resize(static_cast<std::size_t>(p_.max_candidates));
-        const CloudDirections directions(cloud);
         const PlatePlacer placer(target.all, reach_of(target));
         std::vector<PlacedPlate> placed(plates.size());
         for_pieces(run, plates.size(), 1, [&](std::size_t begin, std::size_t end) {

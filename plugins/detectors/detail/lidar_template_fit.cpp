@@ -3,6 +3,8 @@
 
 #include "detectors/detail/lidar_template_fit.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -120,7 +122,8 @@ double known_band(const PlateShape& shape, const PlateState& state) {
                                kBandWidths * std::exp(state.log_width.maxCoeff()));
 }
 
-/// Every `stride`-th ray within `band` of an edge, and how many there are farther off.
+/// Fills `zone` but for its silent places and its floor: every `stride`-th ray within `band` of an
+/// edge, and how many there are farther off.
 void choose_rays(const PlateShape& shape, const RayBundle& bundle, std::size_t stride, double band,
                  ToldRays& zone) {
     const std::vector<double> backgrounds = backgrounds_of(shape, bundle);
@@ -172,9 +175,9 @@ bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays
             [&](const auto& p) { return target.all.beyond(p, margin) < 0; });
     };
     const auto settle = [&](std::size_t stride, double band) {
-        choose_rays(shape, rays, stride, band, fit.zone);
-        fit.zone.floor = floor_of(shape, rays, margin);
-        fit.density = add_silent(target, rays, margin, fit.zone);
+        tbb::parallel_invoke([&] { choose_rays(shape, rays, stride, band, fit.zone); },
+                             [&] { fit.zone.floor = floor_of(shape, rays, margin); },
+                             [&] { fit.density = add_silent(target, rays, margin, fit.zone); });
         for (ToldRays::Silent& silent : fit.zone.silent) silent.rays /= static_cast<double>(stride);
         return fit.zone.rays.size() >= kLeastRays;
     };
@@ -187,8 +190,9 @@ bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays
         (!settle(stride, kBand) || !climb(shape, priors, fit.zone, first, kFirstSteps, state)))
         return false;
     for (int round = start.settled ? kRounds - 1 : 0; round < kRounds; ++round) {
-        // A first plane that is far off cuts away some of the plate's own points.
-        for (int turn = 0; turn < kTurns; ++turn) {
+        // A first plane that is far off cuts away some of the plate's own points; a draft's does
+        // not.
+        for (int turn = start.settled ? kTurns - 1 : 0; turn < kTurns; ++turn) {
             if (!turn_into_plate(target.all, rays, margin, state.T_lidar_middle)) return false;
             take_plane();
         }

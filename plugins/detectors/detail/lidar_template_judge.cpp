@@ -63,11 +63,11 @@ PlateSupport measure_support(const PlateTemplate& target, const PlateFit& fit) {
     const double ring = all.reach();
     // Openings: holes first, then what lies beyond the sides of the outline.
     std::vector<Opening> openings(holes + all.side_count());
+    // Of a place off the plate.
     const auto opening_at = [&](const Eigen::Vector2d& p) -> Opening* {
-        if (all.beyond(p, deep) >= 0) return nullptr;
-        const int hole = all.hole_at(p);
-        if (hole >= 0) return &openings[static_cast<std::size_t>(hole)];
         const PlateShape::Edge edge = all.edge(p);
+        const int hole = all.hole_of(edge.side);
+        if (hole >= 0) return &openings[static_cast<std::size_t>(hole)];
         if (edge.inside < -deep - ring) return nullptr;
         return &openings[holes + static_cast<std::size_t>(edge.side)];
     };
@@ -75,7 +75,8 @@ PlateSupport measure_support(const PlateTemplate& target, const PlateFit& fit) {
     const double reach = all.radius() + deep + ring;
     for (double x = -reach; x <= reach; x += step)
         for (double y = -reach; y <= reach; y += step)
-            if (Opening* opening = opening_at({x, y})) opening->area += step * step;
+            if (all.beyond({x, y}, deep) < 0)
+                if (Opening* opening = opening_at({x, y})) opening->area += step * step;
 
     PlateSupport support;
     double plate = 0.0, plate_hits = 0.0;
@@ -83,11 +84,13 @@ PlateSupport measure_support(const PlateTemplate& target, const PlateFit& fit) {
     std::vector<std::array<int, kJudgeFifths>> hits(target.holes.side_count());
     for (const PlaneRay& ray : fit.rays.rays) {
         const Told told = fit.rays.told(ray);
-        if (Opening* opening = opening_at(ray.place)) {
-            (told == Told::hit    ? opening->hits
-             : told == Told::miss ? opening->misses
-                                  : opening->hidden) += 1.0;
-        } else if (told != Told::nothing && all.beyond(ray.place, deep) > 0) {
+        const int beyond = all.beyond(ray.place, deep);
+        if (beyond < 0) {
+            if (Opening* opening = opening_at(ray.place))
+                (told == Told::hit    ? opening->hits
+                 : told == Told::miss ? opening->misses
+                                      : opening->hidden) += 1.0;
+        } else if (told != Told::nothing && beyond > 0) {
             plate += 1.0;
             plate_hits += told == Told::hit;
         }

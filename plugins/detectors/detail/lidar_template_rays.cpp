@@ -3,6 +3,9 @@
 
 #include "detectors/detail/lidar_template_rays.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,6 +27,9 @@ constexpr std::size_t kRaysLeastPoints = 30;
 constexpr int kPlaneFits = 4;
 constexpr std::size_t kLookAtShare = 3;  ///< of the points in such directions, one in three crosses
 constexpr double kLeastIntensity = 1e-3;  ///< of 1
+constexpr std::size_t kLookAhead = 16;
+constexpr std::size_t kRaysPiece = 8192;
+constexpr std::size_t kMeasuredRays = 30000;  ///< of more, some tell noise and gap
 
 /// The points in directions that may cross a circle about a place.
 struct NearRays {
@@ -43,18 +49,28 @@ struct NearRays {
         });
         return sum;
     }
-    /// Calls visit(index) for every `stride`-th.
-    template <class Visit>
-    void each(const CloudDirections& directions, std::size_t stride, const Visit& visit) const {
-        std::size_t skip = 0;
-        directions.around(axis, angle, [&](const std::uint32_t* begin, const std::uint32_t* end) {
-            const auto size = static_cast<std::size_t>(end - begin);
-            std::size_t k = skip;
-            for (; k < size; k += stride) visit(begin[k]);
-            skip = k - size;
-        });
-    }
 };
+
+/// Indices of points in neighbouring directions.
+struct Stretch {
+    const std::uint32_t* begin;
+    const std::uint32_t* end;
+};
+
+/// Every `stride`-th of the points near, all stretches together counted through.
+std::vector<Stretch> stretches_of(const CloudDirections& directions, const NearRays& near,
+                                  std::size_t stride) {
+    std::vector<Stretch> stretches;
+    std::size_t skip = 0;
+    directions.around(
+        near.axis, near.angle, [&](const std::uint32_t* begin, const std::uint32_t* end) {
+            const auto size = static_cast<std::size_t>(end - begin);
+            if (skip < size) stretches.push_back({begin + skip, end});
+            // The first of the next stretch.
+            skip = skip < size ? (stride - (size - skip) % stride) % stride : skip - size;
+        });
+    return stretches;
+}
 
 /// Indices of the points p whose rays cross the plane n.x = h within the radius of its origin o:
 ///     |h / (n.p) p - o|^2 <= radius^2, multiplied by (n.p)^2;
@@ -70,16 +86,40 @@ std::vector<std::uint32_t> crossing_rays(const CloudDirections& directions, cons
     const float* xs = points.getPointsBufferRef_x().data();
     const float* ys = points.getPointsBufferRef_y().data();
     const float* zs = points.getPointsBufferRef_z().data();
-    std::vector<std::uint32_t> found;
-    near.each(directions, stride, [&](std::uint32_t i) {
-        const float x = xs[i], y = ys[i], z = zs[i];
-        const float deep = n.x() * x + n.y() * y + n.z() * z;
-        const float square = x * x + y * y + z * z;
-        const float along = o.x() * x + o.y() * y + o.z() * z;
-        const float off = h * (h * square - 2.0F * deep * along) + rest * deep * deep;
-        if (deep > 0.0F && off <= 0.0F && deep * deep >= least * square) found.push_back(i);
+    const std::vector<Stretch> stretches = stretches_of(directions, near, stride);
+    std::vector<std::vector<std::uint32_t>> found(stretches.size());
+    tbb::parallel_for(std::size_t{0}, stretches.size(), [&](std::size_t k) {
+        const auto size = static_cast<std::size_t>(stretches[k].end - stretches[k].begin);
+        const std::uint32_t* indices = stretches[k].begin;
+        for (std::size_t j = 0; j < size; j += stride) {
+            // Neighbours in direction lie far apart in the cloud.
+            if (const std::size_t later = j + kLookAhead * stride; later < size) {
+                __builtin_prefetch(xs + indices[later]);
+                __builtin_prefetch(ys + indices[later]);
+                __builtin_prefetch(zs + indices[later]);
+            }
+            const std::uint32_t i = indices[j];
+            const float x = xs[i], y = ys[i], z = zs[i];
+            const float deep = n.x() * x + n.y() * y + n.z() * z;
+            const float square = x * x + y * y + z * z;
+            const float along = o.x() * x + o.y() * y + o.z() * z;
+            const float off = h * (h * square - 2.0F * deep * along) + rest * deep * deep;
+            if (deep > 0.0F && off <= 0.0F && deep * deep >= least * square) found[k].push_back(i);
+        }
     });
-    return found;
+    std::vector<std::uint32_t> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+/// Calls visit(ray, index) for each, on the threads of the calling task.
+template <class Visit>
+void each_ray(RayBundle& bundle, const Visit& visit) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bundle.rays.size(), kRaysPiece),
+                      [&](const auto& piece) {
+                          for (std::size_t k = piece.begin(); k < piece.end(); ++k)
+                              visit(bundle.rays[k], k);
+                      });
 }
 
 }  // namespace
@@ -102,17 +142,15 @@ RayBundle gather_rays(const CloudDirections& directions, const Eigen::Isometry3d
     const auto& intensities = cloud.points->getPointsBufferRef_intensity();
     bundle.crossed = look * crossing.size();
     const std::size_t stride = crossing.size() / most + 1;
-    bundle.rays.reserve(crossing.size() / stride + 1);
-    for (std::size_t k = 0; k < crossing.size(); k += stride) {
-        const std::size_t i = crossing[k];
-        PlaneRay ray;
+    bundle.rays.resize((crossing.size() + stride - 1) / stride);
+    each_ray(bundle, [&](PlaneRay& ray, std::size_t k) {
+        const std::size_t i = crossing[k * stride];
         ray.point = {static_cast<double>(xs[i]), static_cast<double>(ys[i]),
                      static_cast<double>(zs[i])};
         // What is no number comes second in std::max, so that it loses.
         ray.log_energy = std::log(std::max(kLeastIntensity, static_cast<double>(intensities[i])) /
                                   ray.point.squaredNorm());
-        bundle.rays.push_back(ray);
-    }
+    });
     replace_plane(bundle, T_lidar_plane);
     return bundle;
 }
@@ -122,18 +160,21 @@ void replace_plane(RayBundle& bundle, const Eigen::Isometry3d& T_lidar_plane) {
     const Eigen::Vector3d into = T_lidar_plane.linear().col(2);
     const double distance = into.dot(T_lidar_plane.translation());
     const Eigen::Isometry3d to_plane = T_lidar_plane.inverse();
-    for (PlaneRay& ray : bundle.rays) {
+    each_ray(bundle, [&](PlaneRay& ray, std::size_t) {
         const double scale = distance / into.dot(ray.point);
         ray.place = (to_plane * (scale * ray.point)).head<2>();
         ray.beyond = (1.0 - scale) * ray.point.norm();
-    }
+    });
 }
 
 void measure_ranges(RayBundle& bundle, const PlacesOfPlane& plate, const PlacesOfPlane& open) {
     std::vector<double> off, behind;
-    for (const PlaneRay& ray : bundle.rays)
+    const std::size_t stride = bundle.rays.size() / kMeasuredRays + 1;
+    for (std::size_t k = 0; k < bundle.rays.size(); k += stride) {
+        const PlaneRay& ray = bundle.rays[k];
         if (std::abs(ray.beyond) <= 2.0 * kMostSigma && plate(ray.place))
             off.push_back(std::abs(ray.beyond));
+    }
     bundle.range_sigma = kMostSigma;
     if (!off.empty()) {
         const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
@@ -141,8 +182,10 @@ void measure_ranges(RayBundle& bundle, const PlacesOfPlane& plate, const PlacesO
         bundle.range_sigma = std::clamp(1.4826 * *middle, kRaysLeastSigma, kMostSigma);
     }
     bundle.hit_depth = kHitSigmas * bundle.range_sigma;
-    for (const PlaneRay& ray : bundle.rays)
+    for (std::size_t k = 0; k < bundle.rays.size(); k += stride) {
+        const PlaneRay& ray = bundle.rays[k];
         if (ray.beyond > bundle.hit_depth && open(ray.place)) behind.push_back(ray.beyond);
+    }
     bundle.gap = 0.0;
     if (behind.size() < kRaysLeastPoints) return;
     const auto near = behind.begin() + static_cast<std::ptrdiff_t>(

@@ -28,13 +28,6 @@ constexpr double kRingWidth = 0.3;  ///< of the plate's radius
 constexpr double kLeastFilled = 0.45, kMostFilled = 1.9, kMostAround = 0.5;
 constexpr double kSamePlate = 0.4;  ///< of the plate's radius
 constexpr double kSameNormal = 0.9;
-constexpr int kOffset = 1 << 20;
-
-std::uint64_t key_of(const Eigen::Vector3i& at) {
-    return (static_cast<std::uint64_t>(at.x() + kOffset) << 42) |
-           (static_cast<std::uint64_t>(at.y() + kOffset) << 21) |
-           static_cast<std::uint64_t>(at.z() + kOffset);
-}
 
 }  // namespace
 
@@ -42,42 +35,9 @@ PlateSearch::PlateSearch(const Cloud& cloud, const PlateShape& shape)
     : cell_size_(std::clamp(kCellShare * shape.least_side(), kLeastCell, kGreatestCell)),
       tolerance_(kToleranceShare * cell_size_),
       plate_radius_(shape.radius()),
-      plate_area_(shape.plate_area()) {
-    gather(cloud);
+      plate_area_(shape.plate_area()),
+      cells_(gather_cells(cloud, cell_size_, kSearchLeastPoints)) {
     sort_into_blocks();
-}
-
-void PlateSearch::gather(const Cloud& cloud) {
-    const auto& xs = cloud.points->getPointsBufferRef_x();
-    const auto& ys = cloud.points->getPointsBufferRef_y();
-    const auto& zs = cloud.points->getPointsBufferRef_z();
-    const float scale = static_cast<float>(1.0 / cell_size_);
-    const float most = static_cast<float>(kOffset - 2);
-    std::unordered_map<Key, std::uint32_t> index;
-    index.reserve(xs.size() / 16);
-    std::vector<Cell> cells;
-    Key last_key = 0;
-    std::uint32_t last = 0;
-    for (std::size_t i = 0; i < xs.size(); ++i) {
-        const Eigen::Vector3f p(xs[i], ys[i], zs[i]);
-        const Eigen::Vector3f scaled = scale * p;
-        if (!(scaled.cwiseAbs().maxCoeff() < most)) continue;
-        const Eigen::Vector3i at = scaled.array().floor().matrix().cast<int>();
-        const Key key = key_of(at);
-        if (cells.empty() || key != last_key) {
-            const auto [found, fresh] =
-                index.try_emplace(key, static_cast<std::uint32_t>(cells.size()));
-            if (fresh) cells.emplace_back();
-            last = found->second;
-            last_key = key;
-        }
-        Cell& cell = cells[last];
-        ++cell.count;
-        cell.mean += (p - cell.mean) / static_cast<float>(cell.count);
-    }
-    cells_.reserve(cells.size());
-    for (const Cell& cell : cells)
-        if (cell.count >= kSearchLeastPoints) cells_.push_back(cell);
 }
 
 void PlateSearch::sort_into_blocks() {
@@ -86,10 +46,10 @@ void PlateSearch::sort_into_blocks() {
     order.reserve(cells_.size());
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const Eigen::Vector3i at = (scale * cells_[i].mean).array().floor().matrix().cast<int>();
-        order.emplace_back(key_of(at), static_cast<std::uint32_t>(i));
+        order.emplace_back(cell_key(at), static_cast<std::uint32_t>(i));
     }
     std::sort(order.begin(), order.end());
-    std::vector<Cell> sorted;
+    std::vector<PlateCell> sorted;
     sorted.reserve(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i == 0 || order[i].first != order[i - 1].first)
@@ -112,7 +72,7 @@ void PlateSearch::collect(const Eigen::Vector3d& centre, double radius,
     for (int x = low.x(); x <= high.x(); ++x)
         for (int y = low.y(); y <= high.y(); ++y)
             for (int z = low.z(); z <= high.z(); ++z) {
-                const auto block = blocks_.find(key_of({x, y, z}));
+                const auto block = blocks_.find(cell_key({x, y, z}));
                 if (block == blocks_.end()) continue;
                 for (std::uint32_t i = block->second.first; i < block->second.second; ++i)
                     if ((cells_[i].mean - middle).squaredNorm() <= limit) found.push_back(i);
@@ -204,11 +164,12 @@ std::vector<PlateCandidate> PlateSearch::find(Rng& rng, const std::function<void
         std::swap(seeds[i - 1], seeds[static_cast<std::size_t>(rng() % i)]);
     const double reach = kSeedReach * plate_radius_;
     const double least_cells = kLeastFilled * plate_area_ / (cell_size_ * cell_size_) / 3.0;
-    std::vector<std::uint32_t> near, best_on;
+    std::vector<std::uint32_t> near;
+    std::vector<int> covered(cells_.size(), 0);
     for (const std::uint32_t seed : seeds) {
-        if (cells_[seed].covered >= kMostCovered) continue;
+        if (covered[seed] >= kMostCovered) continue;
         poll();
-        cells_[seed].covered = kMostCovered;
+        covered[seed] = kMostCovered;
         const Eigen::Vector3d at = cells_[seed].mean.cast<double>();
         collect(at, reach, near);
         if (static_cast<double>(near.size()) < least_cells) continue;
@@ -242,7 +203,7 @@ std::vector<PlateCandidate> PlateSearch::find(Rng& rng, const std::function<void
         if (static_cast<double>(best) < least_cells) continue;
         for (const std::uint32_t i : near)
             if (std::abs(best_normal.dot(cells_[i].mean.cast<double>() - at)) <= tolerance_)
-                ++cells_[i].covered;
+                ++covered[i];
         try_patch(at, best_normal);
     }
     std::stable_sort(

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "detectors/detail/lidar_template_cells.hpp"
 #include "detectors/detail/lidar_template_shape.hpp"
 #include "petal/calibration/cloud.hpp"
 #include "petal/run.hpp"
@@ -44,13 +45,7 @@ class PlateSearch {
     const PlateCandidate& nearest_miss() const { return nearest_miss_; }
 
    private:
-    struct Cell {
-        Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-        int count = 0;
-        int covered = 0;
-    };
     using Key = std::uint64_t;
-    void gather(const Cloud& cloud);
     void sort_into_blocks();
     void collect(const Eigen::Vector3d& centre, double radius,
                  std::vector<std::uint32_t>& found) const;
@@ -59,7 +54,7 @@ class PlateSearch {
     void keep(const PlateCandidate& plate);
 
     double cell_size_, tolerance_, plate_radius_, plate_area_;
-    std::vector<Cell> cells_;
+    std::vector<PlateCell> cells_;
     /// Cubes of the plate's radius, each a range of the cells, which are sorted by them.
     std::unordered_map<Key, std::pair<std::uint32_t, std::uint32_t>> blocks_;
     std::vector<PlateCandidate> plates_;

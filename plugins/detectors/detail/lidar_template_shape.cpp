@@ -16,8 +16,7 @@ namespace {
 constexpr double kRimShare = 0.08;  ///< of the board's lesser side: 40 mm of 500
 constexpr double kRimToHole = 0.4;  ///< of the way from the outline to the nearest hole
 constexpr int kEighths = 8;
-constexpr double kProbe = 1e-6;           ///< m
-constexpr double kHalfDiagonal = 0.7072;  ///< of a square's side, rounded up
+constexpr double kProbe = 1e-6;  ///< m
 
 double area_of(const std::vector<Eigen::Vector2d>& polygon) {
     double twice = 0.0;
@@ -100,6 +99,7 @@ void PlateShape::close_loop(std::size_t first, bool outline) {
     loop.first = static_cast<std::uint16_t>(first);
     loop.last = static_cast<std::uint16_t>(primitives_.size());
     loop.of_outline = outline;
+    if (!outline) loop.hole = static_cast<int>(loops_.size()) - (outline_counts_ ? 1 : 0);
     loop.convex = !primitives_[first].round;
     for (std::size_t i = first; i < primitives_.size(); ++i) {
         primitives_[i].loop = static_cast<std::uint16_t>(loops_.size());
@@ -110,6 +110,7 @@ void PlateShape::close_loop(std::size_t first, bool outline) {
         }
     }
     loops_.push_back(loop);
+    side_holes_.resize(side_lengths_.size(), loop.hole);
 }
 
 void PlateShape::add_circle(const Target::RoundHole& hole) {
@@ -120,11 +121,11 @@ void PlateShape::add_circle(const Target::RoundHole& hole) {
     circle.b = {hole.radius, 0.0};
     circle.side = first;
     primitives_.push_back(circle);
-    close_loop(primitives_.size() - 1, false);
     for (int i = 0; i < kEighths; ++i) {
         side_lengths_.push_back(2.0 * kPi * hole.radius / kEighths);
         opposite_.push_back(first + (i + kEighths / 2) % kEighths);
     }
+    close_loop(primitives_.size() - 1, false);
 }
 
 bool PlateShape::in_outline(const Eigen::Vector2d& p) const {
@@ -152,21 +153,10 @@ bool PlateShape::on_plate(const Eigen::Vector2d& p) const {
     return in_outline(p) && hole_at(p) < 0;
 }
 
-bool PlateShape::in_zone(const Eigen::Vector2d& p) const {
-    const double limit = outline_counts_ ? -reach_ : rim_;
-    // Distances differ by no more than places do.
-    if (const std::size_t cell = cell_at(p);
-        cell != kNoCell && std::abs(in_outline_[cell] - limit) > kHalfDiagonal * cell_)
-        return in_outline_[cell] > limit;
-    if (outline_counts_) return in_outline(p) || distance_to_polygon(outline_, p) <= reach_;
-    return in_outline(p) && distance_to_polygon(outline_, p) >= rim_;
-}
-
-PlateShape::Edge PlateShape::edge_of(const Eigen::Vector2d& p, const std::uint16_t* first,
-                                     const std::uint16_t* last) const {
+PlateShape::Edge PlateShape::nearest_of(const Eigen::Vector2d& p, const std::uint16_t* first,
+                                        const std::uint16_t* last) const {
     Edge edge;
-    double nearest = std::numeric_limits<double>::infinity();
-    Eigen::Vector2d off = Eigen::Vector2d::UnitX();
+    edge.inside = std::numeric_limits<double>::infinity();
     for (; first != last; ++first) {
         const Primitive& primitive = primitives_[*first];
         Eigen::Vector2d away;
@@ -179,7 +169,7 @@ PlateShape::Edge PlateShape::edge_of(const Eigen::Vector2d& p, const std::uint16
                 radius > 0.0 ? Eigen::Vector2d(from / radius) : Eigen::Vector2d::UnitX();
             distance = std::abs(radius - primitive.b.x());
             away = radius >= primitive.b.x() ? unit : Eigen::Vector2d(-unit);
-            if (distance < nearest)
+            if (distance < edge.inside)
                 side +=
                     static_cast<int>(std::floor(
                         std::atan2(unit.y(), unit.x()) / (2.0 * kPi) * kEighths + 0.5 + kEighths)) %
@@ -195,33 +185,31 @@ PlateShape::Edge PlateShape::edge_of(const Eigen::Vector2d& p, const std::uint16
             else
                 away = Eigen::Vector2d(-along.y(), along.x()).normalized();
         }
-        if (distance >= nearest) continue;
-        nearest = distance;
-        off = away;
+        if (distance >= edge.inside) continue;
+        edge.inside = distance;
+        edge.inward = away;
         edge.side = side;
     }
-    const bool material = outline_counts_ ? on_plate(p) : hole_at(p) < 0;
-    edge.inside = material ? nearest : -nearest;
-    edge.inward = material ? off : Eigen::Vector2d(-off);
     return edge;
 }
 
-PlateShape::Edge PlateShape::edge(const Eigen::Vector2d& p) const {
-    const std::size_t cell = cell_at(p);
-    if (cell == kNoCell)
-        return edge_of(p, everything_.data(), everything_.data() + everything_.size());
-    return edge_of(p, nearest_.data() + begins_[cell], nearest_.data() + begins_[cell + 1]);
+PlateShape::Edge PlateShape::edge_of(const Eigen::Vector2d& p, const std::uint16_t* first,
+                                     const std::uint16_t* last) const {
+    Edge edge = nearest_of(p, first, last);
+    if (!is_material(p)) turn_over(edge);
+    return edge;
 }
 
-int PlateShape::beyond(const Eigen::Vector2d& p, double band) const {
-    const std::size_t cell = cell_at(p);
-    if (cell != kNoCell) {
-        const double least = band + kHalfDiagonal * cell_;
-        if (inside_[cell] > least) return 1;
-        if (inside_[cell] < -least) return -1;
-    }
-    const double inside = edge(p).inside;
-    return inside > band ? 1 : inside < -band ? -1 : 0;
+bool PlateShape::is_material(const Eigen::Vector2d& p) const {
+    return outline_counts_ ? on_plate(p) : hole_at(p) < 0;
+}
+
+bool PlateShape::contains(const Loop& loop, const Eigen::Vector2d& p) const {
+    const auto hole = static_cast<std::size_t>(loop.hole);
+    if (loop.of_outline) return in_outline(p);
+    if (hole < holes_.size()) return inside_polygon(holes_[hole], p);
+    const Target::RoundHole& round = round_holes_[hole - holes_.size()];
+    return (p - round.centre).squaredNorm() < round.radius * round.radius;
 }
 
 bool PlateShape::is_round(int side) const {

@@ -61,6 +61,8 @@ class PlateShape {
     /// Where along a side a place lies: 0 at one end, 1 at the other.
     double share_along(int side, const Eigen::Vector2d& p) const;
     bool is_round(int side) const;
+    /// The hole whose side this is, as hole_at() counts them; -1: the outline's.
+    int hole_of(int side) const { return side_holes_[static_cast<std::size_t>(side)]; }
     double side_length(std::size_t side) const { return side_lengths_[side]; }
     /// The side across the hole (or the board), which a shift moves against this one in a shift of
     /// the edges and with it in a shift of the board; -1 for none.
@@ -101,7 +103,9 @@ class PlateShape {
     struct Loop {
         std::uint16_t first = 0, last = 0;
         bool convex = false, of_outline = false;
+        int hole = -1;  ///< as hole_at() counts them; -1: the outline
     };
+    bool contains(const Loop& loop, const Eigen::Vector2d& p) const;
     void close_loop(std::size_t first, bool outline);
     void add_polygon(const std::vector<Eigen::Vector2d>& polygon, bool outline);
     void add_circle(const Target::RoundHole& hole);
@@ -119,6 +123,17 @@ class PlateShape {
     }
     Edge edge_of(const Eigen::Vector2d& p, const std::uint16_t* first,
                  const std::uint16_t* last) const;
+    /// The same as of a place on the material.
+    Edge nearest_of(const Eigen::Vector2d& p, const std::uint16_t* first,
+                    const std::uint16_t* last) const;
+    static void turn_over(Edge& edge) {
+        edge.inside = -edge.inside;
+        edge.inward = -edge.inward;
+    }
+    /// Not off the plate, as far as the sides that count tell.
+    bool is_material(const Eigen::Vector2d& p) const;
+    /// The same by what is near the cell that holds `p`.
+    bool is_material_in(std::size_t cell, const Eigen::Vector2d& p) const;
     void build_grid();
     int find_symmetry() const;
 
@@ -127,7 +142,7 @@ class PlateShape {
     std::vector<Target::RoundHole> round_holes_;
     std::vector<Primitive> primitives_;
     std::vector<double> side_lengths_;
-    std::vector<int> opposite_;
+    std::vector<int> opposite_, side_holes_;
     std::size_t hole_count_ = 0;
     Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();
     double width_ = 0.0, height_ = 0.0, radius_ = 0.0, rim_ = 0.0, reach_ = 0.0, plate_area_ = 0.0,

@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "detectors/detail/lidar_template_placement.hpp"
 #include "noise.hpp"
 #include "petal/calibration/angles.hpp"
+#include "petal/calibration/polygon.hpp"
 
 namespace petal {
 namespace {
@@ -38,6 +41,40 @@ TEST_P(PlateShapes, WhatIsBeyondABandIsWhatTheDistanceSays) {
             const double band = uniform(rng_, 0.0, 0.05), inside = shape.edge(p).inside;
             const int expected = inside > band ? 1 : inside < -band ? -1 : 0;
             ASSERT_EQ(shape.beyond(p, band), expected) << p.transpose() << " band " << band;
+        }
+    }
+}
+
+TEST_P(PlateShapes, TheNearestEdgeIsThatOfTheTargetsPolygonsAndCircles) {
+    const PlateShape all(target_, PlateShape::Sides::all), holes(target_, PlateShape::Sides::holes);
+    for (int i = 0; i < 20000; ++i) {
+        const Eigen::Vector2d p = somewhere(all), at = p + all.middle();
+        double nearest = std::numeric_limits<double>::infinity();
+        int hole = -1, index = 0;
+        for (const auto& polygon : target_.holes) {
+            nearest = std::min(nearest, distance_to_polygon(polygon, at));
+            if (inside_polygon(polygon, at)) hole = index;
+            ++index;
+        }
+        for (const auto& circle : target_.round_holes) {
+            const double off = (at - circle.centre).norm() - circle.radius;
+            nearest = std::min(nearest, std::abs(off));
+            if (off < 0.0) hole = index;
+            ++index;
+        }
+        const PlateShape::Edge of_holes = holes.edge(p), of_all = all.edge(p);
+        ASSERT_NEAR(of_holes.inside, hole < 0 ? nearest : -nearest, 1e-12) << p.transpose();
+        if (hole >= 0) {
+            ASSERT_EQ(holes.hole_of(of_holes.side), hole) << p.transpose();
+        }
+        const double rim = distance_to_polygon(target_.outline, at);
+        const bool plate = hole < 0 && inside_polygon(target_.outline, at);
+        const double least = std::min(nearest, rim);
+        ASSERT_NEAR(of_all.inside, plate ? least : -least, 1e-12) << p.transpose();
+        ASSERT_EQ(all.hole_of(of_all.side) < 0, rim < nearest) << p.transpose();
+        // Off the board a step along it comes as much nearer.
+        if (of_all.inside < -1e-3 && hole < 0) {
+            ASSERT_NEAR(all.edge(p + 1e-4 * of_all.inward).inside, of_all.inside + 1e-4, 1e-7);
         }
     }
 }
