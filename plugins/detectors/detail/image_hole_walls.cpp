@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "detectors/detail/image_wall_prior.hpp"
+#include "detectors/detail/median_value.hpp"
 
 namespace petal {
 namespace {
@@ -35,13 +36,6 @@ std::optional<Eigen::Vector3d> camera_centre(const Homography& board_to_ideal,
     const Eigen::Vector3d centre = -R.transpose() * m.col(2);
     if (!centre.allFinite() || centre.z() >= 0.0) return std::nullopt;
     return centre;
-}
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 }  // namespace
@@ -87,7 +81,7 @@ std::array<HoleWalls::Share, 2> HoleWalls::share(const std::vector<double>& show
         wall /= static_cast<double>(inset.size());
         auto& share = shares[static_cast<std::size_t>(axis_index)];
         const double seen =
-            explained[static_cast<std::size_t>(axis_index)].mean + median_of(inset) / wall;
+            explained[static_cast<std::size_t>(axis_index)].mean + median_value(inset) / wall;
         const double sigma = kInsetSigmaPx / sight.px_per_m / wall;
         const double weight =
             share.sigma * share.sigma / (share.sigma * share.sigma + sigma * sigma);

@@ -85,7 +85,6 @@ class TemplateFit {
     double holes_in_place(const FittedBoard& board) const;
 
    private:
-    bool solve(FittedBoard& board, double pixels_share, int rounds) const;
     double plate_grey(const TemplatePose& pose) const;
     void count(FittedBoard& board, const EdgeReach& reach) const;
 
