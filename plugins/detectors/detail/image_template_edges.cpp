@@ -38,9 +38,11 @@ std::optional<EdgePoint> edge_of(const EdgeSampler& edges, const TemplateSide& s
 
 double EdgeSample::shifted(const EdgeShifts& shifts) const {
     const auto& share = outline ? shifts.plate_wall : shifts.hole_wall;
+    const double faint = outline ? 1.0 : shifts.faintness_of(side);
     const double part =
         outwards.x() * outwards.x() * share[0] + outwards.y() * outwards.y() * share[1];
-    return px_per_m * ((outline ? shifts.outset : -shifts.inset) + part * wall);
+    const double moved = 1.0 - (1.0 - part) * faint;
+    return px_per_m * ((outline ? shifts.outset : -shifts.inset) + moved * wall);
 }
 
 std::optional<TemplatePose::Seen> TemplatePose::see(const TemplateModel& model,

@@ -25,6 +25,13 @@ struct EdgeShifts {
     /// of the plate.
     std::array<double, 2> hole_wall{0.0, 0.0};
     std::array<double, 2> plate_wall{0.0, 0.0};
+    /// By side: how much fainter than usual its edge is. `hole_wall` is that of a usual one: a wall
+    /// that differs from the plate moves a faint edge by more of its width. Empty: all are usual.
+    std::vector<double> faintness;
+
+    double faintness_of(std::size_t side) const {
+        return side < faintness.size() ? faintness[side] : 1.0;
+    }
 };
 
 /// One place on the template's edges, and the edge that the image shows near it.

@@ -25,6 +25,7 @@ constexpr double kInsetSigma = 5e-4;  ///< m: how holes are cut
 constexpr double kPriorSides = 2.0;   ///< `tolerance` counts as so many sides
 constexpr double kCauchy = 2.4;
 constexpr std::size_t kSolveLeastSamples = 12;
+constexpr double kMostFaint = 3.0;  ///< or strong: more is not the wall's doing
 
 /// How far an edge moves over a wall's width, 0 to 1 where the wall is between plate and what lies
 /// behind in brightness: (wall - behind) / (plate - behind).
@@ -48,14 +49,22 @@ double outline_strength(const FittedBoard& board) {
     return median_value(strengths);
 }
 
-/// px outwards by each of the unknowns.
-Vector12d design_of(const EdgeSample& sample) {
+/// px outwards by each of the unknowns, and what does not depend on them.
+struct Design {
     Vector12d row = Vector12d::Zero();
-    row.head<6>() = sample.by_pose.transpose();
+    double known = 0.0;
+};
+
+Design design_of(const EdgeSample& sample, const EdgeShifts& shifts) {
+    Design design;
+    design.row.head<6>() = sample.by_pose.transpose();
     const Eigen::Index own = sample.outline ? 9 : 6;
-    row(own) = sample.outline ? sample.px_per_m : -sample.px_per_m;
-    row.segment<2>(own + 1) = sample.px_per_m * sample.wall * sample.outwards.cwiseAbs2();
-    return row;
+    const double faint = sample.outline ? 1.0 : shifts.faintness_of(sample.side);
+    design.row(own) = sample.outline ? sample.px_per_m : -sample.px_per_m;
+    design.row.segment<2>(own + 1) =
+        faint * sample.px_per_m * sample.wall * sample.outwards.cwiseAbs2();
+    design.known = (1.0 - faint) * sample.px_per_m * sample.wall;
+    return design;
 }
 
 /// Of offsets of sides, robust, with what is known before.
@@ -112,6 +121,11 @@ class TemplateSolve {
     bool takes_part(const EdgeSample& sample) const {
         return sample.seen && sample.strength >= kLeastEdgeShare * board_.usual_strength;
     }
+    /// px: of a sample's offset, what the unknowns do not explain.
+    double left_of(const EdgeSample& sample) const {
+        const Design design = design_of(sample, board_.shifts);
+        return sample.offset - design.known - design.row.dot(solution_);
+    }
     double& scatter(const SideEffect& side) {
         return side.outline ? outline_scatter_ : hole_scatter_;
     }
@@ -126,6 +140,7 @@ class TemplateSolve {
         }
         if (strengths.size() < kSolveLeastSamples) return false;
         board_.usual_strength = median_value(strengths);
+        measure_faintness();
         weight_.segment<3>(3).setConstant(1.0 / (kTurnPrior * kTurnPrior));
         const double inset = std::hypot(kInsetSigma, kInsetSigmaPx / median_value(scales));
         for (const Eigen::Index own : {6, 9}) {
@@ -140,6 +155,19 @@ class TemplateSolve {
         return true;
     }
 
+    void measure_faintness() {
+        std::vector<std::vector<double>> strengths(effects_.size());
+        for (const EdgeSample& sample : board_.samples)
+            if (takes_part(sample)) strengths[sample.side].push_back(sample.strength);
+        board_.shifts.faintness.assign(effects_.size(), 1.0);
+        if (!limits_.model_walls) return;
+        for (std::size_t s = 0; s < effects_.size(); ++s)
+            if (!strengths[s].empty())
+                board_.shifts.faintness[s] =
+                    std::clamp(board_.usual_strength / median_value(strengths[s]), 1.0 / kMostFaint,
+                               kMostFaint);
+    }
+
     /// Weights by what the board is already known to be. A pass that began with all weights alike
     /// would be drawn to sides that were found to be off, and may end there.
     void start_from_before() {
@@ -150,7 +178,7 @@ class TemplateSolve {
         for (const EdgeSample& sample : board_.samples) {
             if (!takes_part(sample)) continue;
             SideEffect& side = effects_[sample.side];
-            off[sample.side].push_back(sample.offset - design_of(sample).dot(solution_));
+            off[sample.side].push_back(left_of(sample));
             side.px_per_m += sample.px_per_m;
             side.outline = sample.outline;
         }
@@ -176,15 +204,16 @@ class TemplateSolve {
             const EdgeSample& sample = board_.samples[i];
             if (!takes_part(sample)) continue;
             SideEffect& side = effects_[sample.side];
-            const Vector12d row = design_of(sample);
+            const auto [row, known] = design_of(sample, board_.shifts);
+            const double offset = sample.offset - known;
             const double sigma = unit_ * sigma_[i];
             const double w = robust_[i] / (settings_.pixels_share * sigma * sigma);
             const Eigen::Vector2d shared(1.0, sample.u);
             information_ += w * row * row.transpose();
-            right_ += w * sample.offset * row;
+            right_ += w * offset * row;
             side.own += w * shared * shared.transpose();
             side.cross += w * shared * row.transpose();
-            side.right += w * sample.offset * shared;
+            side.right += w * offset * shared;
             side.px_per_m += sample.px_per_m;
             side.outline = sample.outline;
             ++side.samples;
@@ -235,8 +264,7 @@ class TemplateSolve {
             const EdgeSample& sample = board_.samples[i];
             if (!takes_part(sample)) continue;
             const Eigen::Vector2d& effect = effects_[sample.side].effect;
-            left[i] =
-                sample.offset - design_of(sample).dot(solution_) - effect(0) - sample.u * effect(1);
+            left[i] = left_of(sample) - effect(0) - sample.u * effect(1);
             normalised.push_back(std::abs(left[i]) / sigma_[i]);
         }
         unit_ = std::max(1.4826 * median_value(normalised), 0.3);
