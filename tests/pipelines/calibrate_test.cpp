@@ -78,12 +78,16 @@ TEST_F(Calibrate, OneFlatBoardIsNoCalibration) {
     EXPECT_THAT(result["reasons"].dump(), HasSubstr("one board looks the same"));
 }
 
-// Before the sky, above its pole: a fit to some of the rays ends in another minimum here.
+// Before the sky, above its pole. Seed 2: a fit to some of the rays ends in another minimum. Seed
+// 7: where the pole, 5 cm behind the lower rim, says what a hit is, one of twenty on the plate is
+// none, and the fit runs off.
 TEST_F(Calibrate, ABoardOnAPoleBeforeTheSkyIsFound) {
-    const json result = calibrated("open_field", 10.0, 4, "--seed 2");
-    ASSERT_EQ(result["scenes"].size(), 1u);
-    EXPECT_FALSE(result["scenes"][0]["boards"][0]["corners_lidar"].is_null());
-    EXPECT_LT(result["metrics"]["truth.drift_px"].get<double>(), 1.0);
+    for (const char* seed : {"--seed 2", "--seed 7"}) {
+        const json result = calibrated("open_field", 10.0, 4, seed);
+        ASSERT_EQ(result["scenes"].size(), 1u);
+        EXPECT_FALSE(result["scenes"][0]["boards"][0]["corners_lidar"].is_null()) << seed;
+        EXPECT_LT(result["metrics"]["truth.drift_px"].get<double>(), 1.0) << seed;
+    }
 }
 
 // Two sides of the holes are 0.8 and 0.35 px off where the frame of a window lies behind them: a

@@ -170,9 +170,10 @@ bool fit_from(const PlateTemplate& target, const PlateBeam& beam, RayBundle rays
 
     const auto take_plane = [&] {
         replace_plane(rays, state.T_lidar_middle);
+        // What stands close behind the rim alone, a pole or a floor, hides no edge that counts.
         measure_ranges(
             rays, [&](const auto& p) { return target.all.beyond(p, margin) > 0; },
-            [&](const auto& p) { return target.all.beyond(p, margin) < 0; });
+            [&](const auto& p) { return shape.in_zone(p) && shape.beyond(p, margin) < 0; });
     };
     const auto settle = [&](std::size_t stride, double band) {
         tbb::parallel_invoke([&] { choose_rays(shape, rays, stride, band, fit.zone); },
