@@ -164,6 +164,25 @@ TEST(ImageTemplate, FindsTheFrontEdgesWhereWallsShow) {
     EXPECT_GT(off(0.9, false), 2.0 * off(0.9, true)) << "the bias that the model is there for";
 }
 
+// Grey behind the upper holes, nearly black behind the lower ones: walls of 0.6 of the plate's
+// brightness move the upper edges by -0.4 of their width, the lower ones by +0.5. One share for all
+// left 0.2 px.
+TEST(ImageTemplate, AWallMovesAFaintEdgeOtherwiseThanAStrongOne) {
+    const Target target = load_target(kTemplateTarget);
+    const auto camera = make_camera(640, 480, 500.0);
+    const auto pose = board_pose(target, {0.0, 0.0, 1.2}, 20.0, 20.0, 0.0);
+    const auto two_greys = [](cv::Mat& pixels) {
+        pixels.rowRange(0, 240) = 130.0;
+        pixels.rowRange(240, 480) = 30.0;
+    };
+    const ImageBoards found = find_templates(
+        Photo(camera).draw(two_greys).add(target, pose, 180.0, 1e9, 0.6).take(0.8, 2.0));
+    ASSERT_EQ(found.boards.size(), 1u);
+    EXPECT_LT(testing::rms_distance(found.boards[0].corners,
+                                    true_corners(target, CameraModel(camera), pose)),
+              0.08);
+}
+
 // One path for any target: other holes, other outlines, round ones, one alone.
 TEST(ImageTemplate, TargetsOfOtherShapes) {
     const std::filesystem::path folder = ::testing::TempDir();
