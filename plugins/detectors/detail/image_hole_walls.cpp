@@ -9,7 +9,6 @@
 #include <cmath>
 #include <optional>
 
-#include "detectors/detail/image_wall_prior.hpp"
 #include "detectors/detail/median_value.hpp"
 
 namespace petal {
@@ -65,8 +64,7 @@ std::array<HoleWalls::Share, 2> HoleWalls::share(const std::vector<double>& show
                                                  const std::vector<double>& insets,
                                                  const std::vector<bool>& measured,
                                                  const Sight& sight) const {
-    const double contrast = std::max(sight.contrast, kLeastContrast);
-    const Share expected{1.0 - (1.0 - kWallBrightness) / contrast, kWallBrightnessSigma / contrast};
+    const Share expected = expected_wall_share(std::max(sight.contrast, kLeastContrast));
     std::array<Share, 2> shares{expected, expected};
     for (int axis_index = 0; axis_index < 2; ++axis_index) {
         std::vector<double> inset;

@@ -11,6 +11,7 @@
 
 #include "detectors/detail/image_hole_sides.hpp"
 #include "detectors/detail/image_layout.hpp"
+#include "detectors/detail/image_wall_prior.hpp"
 
 namespace petal {
 
@@ -31,9 +32,7 @@ class HoleWalls {
 
     /// How much of `shown` an edge in the image moves: (wall - hole) / (front - hole) in
     /// brightness, 1 for a wall as bright as the front.
-    struct Share {
-        double mean = 0.0, sigma = 0.0;
-    };
+    using Share = WallShare;
     /// How the board looks: (front - hole) / front in grey values, and its scale.
     struct Sight {
         double contrast = 1.0, px_per_m = 1.0;

@@ -27,18 +27,10 @@ constexpr double kCauchy = 2.4;
 constexpr std::size_t kSolveLeastSamples = 12;
 constexpr double kMostFaint = 3.0;  ///< or strong: more is not the wall's doing
 
-/// How far an edge moves over a wall's width, 0 to 1 where the wall is between plate and what lies
-/// behind in brightness: (wall - behind) / (plate - behind).
-struct WallShare {
-    double mean = 0.5, sigma = 0.5;
-};
-
 WallShare wall_share(double edge, double plate, bool outline) {
-    const double contrast = std::clamp(edge / std::max(plate, 1.0), 0.05, 1.0);
-    const double darker = (1.0 - kWallBrightness) / contrast;
+    const WallShare share = expected_wall_share(std::clamp(edge / std::max(plate, 1.0), 0.05, 1.0));
     // What lies behind the outline may be brighter than the plate, too.
-    if (outline) return {0.5, std::hypot(darker, kWallBrightnessSigma / contrast)};
-    return {1.0 - darker, kWallBrightnessSigma / contrast};
+    return outline ? WallShare{0.5, std::hypot(1.0 - share.mean, share.sigma)} : share;
 }
 
 /// The median edge of the outline, grey levels; 0 for none.
