@@ -68,7 +68,7 @@ PlateShape::Edge PlateShape::edge(const Eigen::Vector2d& p) const {
 bool PlateShape::is_material_in(std::size_t cell, const Eigen::Vector2d& p) const {
     // Distances differ by no more than places do.
     if (std::abs(inside_[cell]) > kHalfDiagonal * cell_) return inside_[cell] > 0.0;
-    // What holds the place, or does not but might, has the nearest side.
+    // A hole that holds the place has the nearest side of all, and so has an outline that does not.
     for (std::uint32_t k = loop_begins_[cell]; k < loop_begins_[cell + 1]; ++k) {
         const Loop& loop = loops_[nearest_loops_[k]];
         if (contains(loop, p) != loop.of_outline) return false;
